@@ -6,7 +6,6 @@ from exporters.production.request import Request
 from geometry.cams.plane.graphical import INTERVALS
 from parts.base.refusal import meant
 from parts.base.registry import KINDS
-from parts.base.texts import told_in
 from parts.cams.coupler_cam.part import LinkageCamSpec
 from parts.cams.disk_cam import page as calculation
 from parts.cams.disk_cam.part import CamSpec
@@ -14,6 +13,7 @@ from parts.cams.sheets.picture import cam_picture
 from parts.cams.sheets.sheet import cam_sheet
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
+from parts.drawing.names import caption_name
 
 # by these steps sections of the calculation are known that no sheet shows
 _PAGE_ALONE = {"position_deg", "savvin_a", "largest_roller_radius"}
@@ -54,6 +54,6 @@ def cam_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
         page = calculation.sheet(table)
         # the position in numbers is for the page alone
         page.sections = [s for s in page.sections if not {x.name for x in s.steps} & _PAGE_ALONE]
-        made = cam_sheet(told_in(wanted.language, spec.title or part), picture, page, asked)
+        made = cam_sheet(caption_name(wanted.parts[part]), picture, page, asked)
         found += [(part if len(made) == 1 else f"{part}.{k}", one) for k, one in enumerate(made, 1)]
     return found

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, TypeAlias, TypeGuard
 
+from parts.drawing.names import caption_name
+
 if TYPE_CHECKING:
     from exporters.production.boards import BoardJob
     from exporters.production.jobs import AssemblyJob
@@ -31,4 +33,5 @@ def _is_laid(job: AssemblyJob | BoardJob) -> TypeGuard[LaidJob]:
 def lying_on(job: LaidJob, told: Words) -> dict[str, str]:
     """For each part on a board or plate how many of it lie there, and its name, as a language writes numbers."""
     counts = Counter(piece.part for piece in job.pieces)
-    return {m.part.id: told.decimal(f"{counts[m.part.id]} × {m.part.name}") for m in job.members}
+    named = {m.part.id: " ".join(filter(None, (caption_name(m.part), m.part.numbers))) for m in job.members}
+    return {part: told.decimal(f"{counts[part]} × {name}") for part, name in named.items()}

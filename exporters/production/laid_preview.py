@@ -19,6 +19,7 @@ from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
 from parts.base.part import Part
 from parts.base.texts import Words, words
+from parts.drawing.names import drawn_names
 
 if TYPE_CHECKING:
     from exporters.production.laid import LaidJob
@@ -100,7 +101,7 @@ def _drawn(part: Part, job: LaidJob, number: str, fill: str) -> _Drawn:
     layers = (
         (section,) if np.allclose(own, seen, rtol=0.02) else (around, section) if max(own / seen) < 1 else (around,)
     )
-    return _Drawn(layers, (), (f"{number} {part.title or part.id}", number), fill)
+    return _Drawn(layers, (), (f"{number} {drawn_names(part, part.language)[0]}", number), fill)
 
 
 def _box(points: Complex) -> np.ndarray:

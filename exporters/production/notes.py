@@ -13,6 +13,7 @@ from exporters.production.jobs import several
 from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.order import steps_told
 from parts.base.texts import N_, Words, words
+from parts.drawing.names import caption_name
 from parts.scene.stock import StockRow, stock_rows
 from parts.texts.findings import finding_message
 
@@ -78,7 +79,7 @@ def _stock(plan: Plan, rows: list[StockRow], told: Words) -> Iterator[str]:
     for (diameter, bore), group in groupby(rows, key=lambda row: (row.stock.diameter, row.stock.bore)):
         of_rod = list(group)
         for row in of_rod:
-            names = ", ".join(plan.parts[part].title or part for part in row.parts)
+            names = ", ".join(caption_name(plan.parts[part]) for part in row.parts)
             yield f"  {row.count} × {row.stock.told(told)}   {names}"
         size = told.decimal("/".join(f"Ø{d:.6g}" for d in (diameter, bore) if d))
         total = told.decimal(f"{sum(row.count * row.stock.length for row in of_rod) / 1000:.3g}")

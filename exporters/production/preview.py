@@ -21,6 +21,7 @@ from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import words
+from parts.drawing.names import caption_name
 from parts.scene.standing import UPWARDS, Instance
 from parts.texts.checks import in_rows
 from parts.texts.findings import finding_text
@@ -55,7 +56,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     told = words(language)
     rows = [f"{quantity_name(told, k)}  {v if isinstance(v, int) else format(v, '.4f')}" for k, v in named.items()]
     caption = [
-        line for row in (part.title or part.id, *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
+        line for row in (caption_name(part), *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
     ]
     # what is turned is known by its axial section, which lies below the view along its axis
     half = part.made_by.axial_section(part.thing, reach / 1000)
@@ -186,7 +187,8 @@ def _leader(line: tuple[complex, complex], size: float) -> str:
     """The line from a word, whose letters have a size, to what it names."""
     start, end = line
     ends = f'x1="{start.real:.4g}" y1="{start.imag:.4g}" x2="{end.real:.4g}" y2="{end.imag:.4g}"'
-    return f'<line {ends} style="stroke:#202830;stroke-width:{size / 20:.4g}"/>'
+    dot = f'<circle cx="{end.real:.4g}" cy="{end.imag:.4g}" r="{size / 8:.4g}" style="fill:#202830"/>'
+    return f'<line {ends} style="stroke:#202830;stroke-width:{size / 20:.4g}"/>{dot}'
 
 
 def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, str]:

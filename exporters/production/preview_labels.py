@@ -1,10 +1,11 @@
-"""Names on the picture of a scene: each beside its part, over no other name and on no part above its own."""
+"""Names on the picture of a scene: on its part or beside it, over no other name and no edge, or on a line."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,9 @@ _SMALL = 0.7
 # places along each side of a picture at which the uppermost part is known
 _CELLS = 200
 # how well a word can stand; places of a part to which a line from its word is tried, and directions
-_BEST, _SPOTS, _DIRECTIONS = 3, 6, 24
+_BEST, _SPOTS, _DIRECTIONS = 2, 12, 24
+# what a line from a word to its part is longer by where it runs over an edge, and through a word or a line: letters
+_EDGE, _CROSSING = 8.0, 1e6
 
 
 class Label(Record):
@@ -87,9 +90,9 @@ class Tops:
         return set(np.unique(self._top).tolist())
 
     def shows(self, label: Label, number: int) -> int:
-        """How well a word stands for the part of this number: 3 on it alone, 2 beside it alone, 1 beside it.
+        """How well a word stands for the part of this number: 2 on it alone, 1 beside it alone, 0 not so.
 
-        0: not beside what is seen of it, on what is above it, or not whole in the picture.
+        On another part it would name that one; over an edge it could not be read.
         """
         left, top, right, low = label.box
         if not self._holds(label):
@@ -98,14 +101,43 @@ class Tops:
         under = set(self._within(left, top, right, low).ravel().tolist())
         if left < self._low.real or top < self._low.imag or right > self._high.real or low > self._high.imag:
             under.add(-1)
-        if not (beside == number).any() or max(under) > number:
-            return 0
-        alone = set(beside.ravel().tolist()) <= {number, -1}
-        return 3 if under == {number} else 2 if under == {-1} and alone else 1
+        if under == {number}:
+            return 2
+        return int(under == {-1} and {number} <= set(beside.ravel().tolist()) <= {number, -1})
 
-    def free(self, label: Label) -> bool:
-        """Whether a word stands whole in the picture, on no part."""
-        return self._holds(label) and bool((self._within(*label.box) < 0).all())
+    def plain(self, boxes: Real) -> NDArray[np.bool_]:
+        """Which boxes (left, top, right, bottom along the last axis) are whole in the picture, over no edge."""
+        begin, end = self._picture
+        left, top, right, low = np.moveaxis(self._cells(boxes), -1, 0)
+        sums = self._edges
+        crossed = sums[low + 1, right + 1] - sums[top, right + 1] - sums[low + 1, left] + sums[top, left]
+        held = (boxes[..., :2] >= (begin.real, begin.imag)) & (boxes[..., 2:] <= (end.real, end.imag))
+        return np.asarray((crossed == 0) & held.all(axis=-1))
+
+    def edges(self, line: tuple[complex, complex]) -> int:
+        """Over how many edges of what is seen a line runs; one more where it begins on a part."""
+        places = np.linspace(*line, 2 + int(abs(line[1] - line[0]) / self._step))
+        columns, rows = self._cells(np.column_stack([places.real, places.imag])).T
+        seen = self._around[rows, columns]
+        return int(np.count_nonzero(np.diff(seen)) + (seen[0] >= 0))
+
+    def _cells(self, places: Real) -> NDArray[np.int_]:
+        """The cells of x and y in turn along the last axis, counted with a row and a column of paper on each side."""
+        corner = np.resize([self._low.real, self._low.imag], places.shape[-1])
+        cells = np.floor((places - corner) / self._step) + 1
+        return np.asarray(cells.clip(0, len(self._top) + 1).astype(int))
+
+    @cached_property
+    def _around(self) -> NDArray[np.int_]:
+        """The uppermost parts, with a row and a column of paper on each side."""
+        return np.pad(self._top, 1, constant_values=-1)
+
+    @cached_property
+    def _edges(self) -> NDArray[np.int_]:
+        """How many cells above and to the left of each corner of cells show another part than one beside them."""
+        seen = np.pad(self._around, ((1, 0), (1, 0)), mode="edge")
+        other = (seen[1:, 1:] != seen[1:, :-1]) | (seen[1:, 1:] != seen[:-1, 1:])
+        return np.pad(other.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
 
     def _holds(self, label: Label) -> bool:
         """Whether a word stands whole in the picture."""
@@ -114,9 +146,14 @@ class Tops:
         return left >= begin.real and top >= begin.imag and right <= end.real and low <= end.imag
 
     def spots(self, number: int) -> list[complex]:
-        """Places where the part of this number is seen, first one in the midst of what is seen of it."""
-        rows, columns = np.nonzero(self._top == number)
-        at = self._low + self._step * (columns + 0.5 + 1j * (rows + 0.5))
+        """Places well within what is seen of the part of this number, first one in the midst of them."""
+        layers = [self._around == number]
+        while layers[-1].any():
+            last = layers[-1]
+            inner = last[1:-1, 1:-1] & last[:-2, 1:-1] & last[2:, 1:-1] & last[1:-1, :-2] & last[1:-1, 2:]
+            layers.append(np.pad(inner, 1))
+        rows, columns = np.nonzero(layers[(len(layers) - 1) // 2])
+        at = self._low + self._step * (columns - 0.5 + 1j * (rows - 0.5))
         outwards: list[complex] = at[np.abs(at - at.mean()).argsort(kind="stable")].tolist()
         return outwards[:: max(len(outwards) // _SPOTS, 1)][:_SPOTS]
 
@@ -144,29 +181,29 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
                     best, found = rank, place
                 if best == _BEST:
                     break
-            if best > 1:
+            if best:
                 break
         made[number] = found
         taken = np.vstack([taken, found.box]) if found else taken
-    # lines are drawn where all other words are known
-    for number, label in enumerate(wanted):
+    # lines are drawn where all other words are known, the shortest to what is uppermost
+    for number, label in reversed(list(enumerate(wanted))):
         if tops and tops.seen(number) and not any(other and other.text == label.text for other in made):
             made[number] = _led(label, number, tops, [other for other in made if other])
     return made
 
 
 def _led(label: Label, number: int, tops: Tops, made: Sequence[Label]) -> Label | None:
-    """A word beside all parts, with a line to its own that crosses as few words and lines as can be; None: no room."""
+    """A word over no edge, on a line to its part that runs over little else and is short; None: no room."""
     taken = np.array([other.box for other in made]).reshape(-1, 4)
     lines = [other.line for other in made if other.line]
     least, found = math.inf, None
-    for spot in tops.spots(number):
-        here = replace(label, x=spot.real, y=spot.imag, leads=spot)
-        for place in _apart([one for one in _around(here) if tops.free(one)], taken):
-            if (crossed := _crossed(place, taken, lines)) < least:
-                least, found = crossed, place
-        if not least:
-            break
+    for spot, size in product(tops.spots(number), (label.size, _SMALL * label.size)):
+        for place in _around(replace(label, x=spot.real, y=spot.imag, size=size, leads=spot), tops, taken):
+            assert place.line
+            # what is as long at full size is not written smaller
+            length = abs(place.line[1] - place.line[0]) / size + _EDGE * tops.edges(place.line)
+            if length < least and (length := length + _CROSSING * _crossed(place, taken, lines)) < least:
+                least, found = length, place
     return found
 
 
@@ -196,13 +233,17 @@ def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
     return [place for place, covered in zip(places, shared.any(axis=1), strict=True) if not covered]
 
 
-def _around(label: Label) -> Iterator[Label]:
-    """Places in all directions, ever farther."""
-    ways = np.exp(2j * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS).tolist()
-    for ring in range(1, 4 * _RINGS + 1):
-        for way in ways:
-            shift = ring / 2 * label.size * (1 + 2 * _ROOM) * way
-            yield replace(label, x=label.x + shift.real, y=label.y + shift.imag)
+def _around(label: Label, tops: Tops, taken: Real) -> Iterator[Label]:
+    """In each direction the nearest place over no edge and no box (rows of left, top, right, bottom)."""
+    ways = np.exp(2j * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS)
+    shifts = np.arange(1, 4 * _RINGS + 1)[:, None] / 2 * label.size * (1 + 2 * _ROOM) * ways
+    boxes = np.array(label.box) + np.stack([shifts.real, shifts.imag] * 2, axis=-1)
+    left, top, right, low = np.moveaxis(boxes[..., None], 2, 0)
+    shared = (left < taken[:, 2]) & (taken[:, 0] < right) & (top < taken[:, 3]) & (taken[:, 1] < low)
+    free = tops.plain(boxes) & ~shared.any(axis=-1)
+    for way in np.flatnonzero(free.any(axis=0)).tolist():
+        shift = complex(shifts[free[:, way].argmax(), way])
+        yield replace(label, x=label.x + shift.real, y=label.y + shift.imag)
 
 
 def _places(label: Label) -> Iterator[Label]:

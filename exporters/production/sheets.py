@@ -34,7 +34,7 @@ from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
-from parts.drawing.names import drawn_names
+from parts.drawing.names import caption_name, drawn_names
 from parts.drawing.parts_list import form_of, mass_text
 from parts.drawing.table import Row
 from parts.drawing.title_block import FORM_1, TITLE_BLOCK, check_held, draw_title_block, draw_turned, title_block_of
@@ -221,7 +221,7 @@ def meshing_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             picture = meshing_picture(mating.pair)
         except ParameterError as error:
             raise SceneError(source, f"mates[{index}]", error.value, error.code, None, "", **error.numbers) from error
-        found.append((str(index), _meshing(mating, picture, scene, asked)))
+        found.append((str(index), _meshing(mating, picture, wanted, asked)))
     return found
 
 
@@ -321,11 +321,11 @@ def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
         raise SceneError(source, place, given, "device_cuts_straight_teeth", Nearest(0.0), "degrees")
 
 
-def _meshing(mating: Toothed, picture: MeshingPicture, scene: SceneFile, asked: Asked) -> Expected:
+def _meshing(mating: Toothed, picture: MeshingPicture, wanted: Request, asked: Asked) -> Expected:
     pair: Any = mating.pair
     language = asked.language
-    specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
-    facts = _facts(mating, picture, language, specs)
+    parts = [wanted.parts[str(wanted.scene.instances[name].part)] for name in (mating.first, mating.second)]
+    facts = _facts(mating, picture, language, parts)
     canvas, view = meshing_canvas(picture, mating.module, facts, asked)
     if asked.by_hand:
         return Expected(canvas, view.paper, ())
@@ -350,9 +350,10 @@ def _meshing(mating: Toothed, picture: MeshingPicture, scene: SceneFile, asked: 
     return Expected(canvas, paper, tuple(circles), teeth, meshing)
 
 
-def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[Any]) -> Facts:
-    """Title and table of the sheet; of helical parts (``specs``) the normal data too."""
+def _facts(mating: Toothed, picture: MeshingPicture, language: str, parts: list[Part]) -> Facts:
+    """Title and table of the sheet; of helical parts the normal data too."""
     pair: Any = mating.pair
+    specs: list[Any] = [part.keys for part in parts]
 
     word = partial(sheet_words, language)
 
@@ -403,9 +404,7 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         Row(word("arc"), sample="ARC_OF_ACTION"),
         Row(word("pitch"), sample="WORKING_PITCH"),
     ]
-    first, second = (
-        told_in(language, spec.title or name) for spec, name in zip(specs, (mating.first, mating.second), strict=True)
-    )
+    first, second = map(caption_name, parts)
     if getattr(mating, "ring_first", False):
         # the picture counts the pinion first
         first, second = second, first

@@ -13,6 +13,7 @@ from geometry.kinematics.mechanism import FRAME, Group, Revolute, Rolling, Suppo
 from parts.base.mate import Toothed
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
+from parts.drawing.names import caption_name
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
 from parts.scene.placing import Placing, seen_from
@@ -33,7 +34,7 @@ def train_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     if placing.train is None or not meshes:
         raise wanted.refused("purpose", wanted.export.purpose, "shows_driven_gears")
     picture, rims = train_picture(placing.train, meshes, placing.instances)
-    told = [wanted.parts[part].title or part for part in rims]
+    told = [caption_name(wanted.parts[part]) for part in rims]
     return [("", train_sheet(wanted.title, picture, told, asked))]
 
 

@@ -12,7 +12,7 @@ from geometry.base.errors import Curable, Cure, Nearest, ParameterError, format_
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
-from parts.base.texts import ENGLISH, Message, Text, counted, filled, listed, message, words
+from parts.base.texts import ENGLISH, Message, Text, counted, filled, listed, message, standard_told, words
 
 
 class SceneError(Curable, ValueError):
@@ -124,6 +124,8 @@ def explained(refusal: SceneError) -> Message:
     # the number that a plural goes by stays a number
     counted = text.by if isinstance(text, Message) else ""
     why = filled(text, **{name: n if name == counted else _told(n) for name, n in refusal.numbers.items()})
+    if standard := refusal.numbers.get("standard"):
+        why = filled(why, standard=standard_told(str(standard)))
     if few := _nearest_few(refusal):
         why = filled(why, known=few)
     # a value of other letters too is written in Cyrillic on purpose

@@ -103,6 +103,12 @@ def listed(texts: Sequence[Text]) -> Message:
     return Message(", ".join(f"{{{name}}}" for name in named), named)
 
 
+def standard_told(names: str) -> Text:
+    """A standard by its number, or several with commas between them, in the reader's letters."""
+    told = [message("GOST {number}", number=n[5:]) if n.startswith("GOST ") else n for n in names.split(", ")]
+    return listed(told) if len(told) > 1 else told[0]
+
+
 def filled(text: Text, /, **numbers: object) -> Message:
     """A text of a table with its numbers."""
     made = Message(text) if isinstance(text, str) else text

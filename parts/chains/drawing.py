@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from geometry.base.record import replace
 from parts.base.part import Part
-from parts.base.texts import N_
+from parts.base.texts import N_, standard_told
 from parts.chains import page as sprocket_page
 from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.wheel_views import Groove
 from parts.drawing.working import PartDrawing, Size, Subject
-from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, rows_of, standard_told
+from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, rows_of
 from parts.pages.inputs import SceneKeys, given
 
 _GAP = ("seating_radius", "seating_angle_deg", "chain_flank_radius", "gap_radius", "joining_radius", "head_radius",

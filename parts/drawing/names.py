@@ -20,3 +20,10 @@ def drawn_names(part: Part, language: str) -> tuple[str, str]:
     if part.title is not None or called is None:
         return part.title or part.id, part.designation or ""
     return words(language).say(in_context(NAME_OF_PART, called)), part.designation or part.id
+
+
+def caption_name(part: Part) -> str:
+    """What captions call it: its title, else what its kind is and its id, where that is another word."""
+    name, _ = drawn_names(part, part.language)
+    known = {part.kind, KINDS.called.get(part.kind, part.id).lower().replace(" ", "_")}
+    return name if part.title is not None or part.id in known | {name} else f"{name} {part.id}"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from geometry.base.record import replace
 from parts.base.part import Part
-from parts.base.texts import N_, Message, Text, in_context, message
+from parts.base.texts import N_, Message, Text, in_context, message, standard_told
 from parts.gears.noncircular_gear import page as noncircular_page
 from parts.gears.noncircular_gear.part import NoncircularGearSpec
 from parts.gears.rack import page as rack_page
@@ -20,7 +20,7 @@ from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WormWheelSpec
 from parts.keys.accuracy import AccuracyTable
 from parts.keys.helix import ToothedKeys, helix_of
-from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, rows_of, standard_told
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, rows_of
 from parts.pages.inputs import SceneKeys, given
 from parts.pages.page import Sheet
 

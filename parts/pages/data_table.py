@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from geometry.base.record import Record, replace
 from parts.base.part import Part
-from parts.base.texts import N_, Text, Words, in_context, message, words
+from parts.base.texts import N_, Text, Words, in_context, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
 from parts.pages.page import Sheet, Step, Table, shortest, unit_text
@@ -31,7 +31,6 @@ _WIDEST = 4
 _DECIMALS = {"mm": 3, "": 4}
 # how drawings name what calculations name by their sources
 _NAMES: Mapping[str, Text] = {
-    "number_of_teeth": in_context("data table", "number of teeth"),
     "profile_shift_coefficient": in_context("data table", "profile shift coefficient"),
     "pressure_angle_deg": in_context("data table", "pressure angle of the basic rack"),
     "tip_radius_coefficient": in_context("data table", "fillet radius of the basic rack, in modules"),
@@ -102,12 +101,6 @@ def chosen_columns(table: Table, names: Sequence[str]) -> Table:
     kept = [k for name in names for k, (symbol, _) in enumerate(table.heads) if symbol == name]
     rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
     return replace(table, heads=tuple(table.heads[k] for k in kept), rows=rows)
-
-
-def standard_told(name: str) -> Text:
-    """A standard by its number, in the reader's letters."""
-    head, _, number = name.partition(" ")
-    return message("GOST {number}", number=number) if head == "GOST" else name
 
 
 def value_text(row: DataRow, told: Words) -> str:

@@ -10,7 +10,7 @@ from geometry.curves.line_arc import Line
 from geometry.gears.bevel.gear import BevelGear
 from geometry.solids.bores import RoundBore
 from parts.base.part import Part
-from parts.base.texts import N_
+from parts.base.texts import N_, standard_told
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, turned_sizes
@@ -42,7 +42,7 @@ from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
 from parts.gears.data_tables import grade_rows, hand_row, mate_rows, with_limits
 from parts.keys.holes import holes_of
-from parts.pages.data_table import DataRow, DataTable, Mated, own_rows, sexagesimal, standard_told
+from parts.pages.data_table import DataRow, DataTable, Mated, own_rows, sexagesimal
 from parts.pages.inputs import SceneKeys, given
 
 # the basic rack of GOST 13754-81, which the table then tells by its name: of modules from 1 mm on

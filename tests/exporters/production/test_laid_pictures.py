@@ -52,8 +52,9 @@ def test_of_a_part_its_section_its_hull_or_both_are_seen(tmp_path: Path) -> None
     samples = [r for r in root.iter(f"{SVG}rect") if "stroke-width" in r.get("style", "")][1:]
     legend = [text.replace("\xa0", " ") for text, *_ in words(root) if re.match(r"\d: 1 × ", text.replace("\xa0", " "))]
     fills = {
-        row.split(" × ")[1].split(" ")[0]: re.findall(r"fill:(#\w+)", r.get("style", ""))[0]
+        name: re.findall(r"fill:(#\w+)", r.get("style", ""))[0]
         for row, r in zip(legend, samples, strict=True)
+        for name in re.findall("slab|barrel|worm", row.lower())
     }
     (slab,) = by_fill[fills["slab"]]
     assert shape(slab).area == pytest.approx(480, rel=1e-6)
@@ -76,7 +77,7 @@ def test_words_are_the_largest_that_have_room(wide: float, high: float, tmp_path
     (word,) = [row for row in words(root) if piece.contains(shapely.Point(row[1], row[2] - 0.35 * row[3]))]
     text, x, y, size = word
     full = 200 / 50
-    tried = [(text, share * full) for text in ("1 slab", "1") for share in (1.0, 0.75, 0.55)]
+    tried = [(text, share * full) for text in ("1 Plate", "1") for share in (1.0, 0.75, 0.55)]
     sides = sorted((piece.bounds[2] - piece.bounds[0], piece.bounds[3] - piece.bounds[1]), reverse=True)
     turned = piece.bounds[2] - piece.bounds[0] < piece.bounds[3] - piece.bounds[1]
     across, up = sides[::-1] if turned else sides
@@ -105,7 +106,9 @@ def test_what_lies_there_is_told_in_rows_beside_its_colour(tmp_path: Path) -> No
     assert told[len(told) - 7][0] == "s: 160 × 120 × 100"
     legend = told[-6:]
     assert [row[0].split(": ")[0] for row in legend] == [str(k + 1) for k in range(6)]
-    assert {row[0].split(": ")[1] for row in legend} == {f"{1 + (k == 3)} × {name}" for k, name in enumerate(names)}
+    assert {row[0].split(": ")[1] for row in legend} == {
+        f"{1 + (k == 3)} × Plate {name}" for k, name in enumerate(names)
+    }
     assert [row[3] for row in legend] == pytest.approx([size] * len(legend), rel=1e-3)
     heights = np.unique([row[2] for row in legend])
     assert np.diff(heights) == pytest.approx(np.full(len(heights) - 1, 1.7 * size), abs=1e-3)

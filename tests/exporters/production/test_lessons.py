@@ -340,8 +340,9 @@ at = [50.0, 0.0, 0.0]
         assert told.count("Ø8/Ø5.2".replace(".", point)) == 2 * (cut is not False)
         # whatever the scene's file is called
         if cut is not None:
-            assert f"{name}.board.1.svg: 2 × plate" in told
-            assert (f"{name}.plate.1.3mf: 1 × plate, " in told) != cut
+            plate = "Plate" if language == "en" else "Плита"
+            assert f"{name}.board.1.svg: 2 × {plate}" in told
+            assert (f"{name}.plate.1.3mf: 1 × {plate}, " in told) != cut
 
 
 def test_lessons_and_coupons_have_notes_in_every_language() -> None:

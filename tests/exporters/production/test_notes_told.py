@@ -41,7 +41,7 @@ def told(text: str, folder: Path, head: str = "") -> list[str]:
 
 LENGTHS = [
     "", "To be cut from rods and tubes, mm (diameter × length):",
-    "  2 × Ø8/Ø5.2 × 20   tube", "  Ø8/Ø5.2 in all: 0.04 m, and what the cuts take",
+    "  2 × Ø8/Ø5.2 × 20   Pin tube", "  Ø8/Ø5.2 in all: 0.04 m, and what the cuts take",
     "  6 × Ø5 × 10.5   Pin", "  Ø5 in all: 0.063 m, and what the cuts take",
 ]  # fmt: skip
 CUT = "Cut the boards: blue is engraved first, then green is cut, red last."
@@ -59,7 +59,7 @@ def test_everything_has_its_lines_in_their_order(tmp_path: Path) -> None:
     assert found[:3] == ["A wheel", "=======", ""]
     joined = " ".join(line if not line.startswith("    ") else line.strip() for line in rows[: rows.index("")])
     assert joined == (
-        "s.board.1.dxf, .svg: 2 × z 12 m 2 "
+        "s.board.1.dxf, .svg: 2 × Gear wheel z 12 m 2 "
         "s.students.pdf: to hand out: the given data are filled in, the cells of the results are empty "
         "s.teacher.pdf: the same with all numbers "
         "s.paper.pdf: 1:1, to be cut out: print at 100 %; its square must measure 100 mm"
@@ -74,7 +74,7 @@ def test_what_there_is_none_of_has_no_lines(tmp_path: Path) -> None:
     """A sheet with numbers alone needs no word; a board without a kerf asks for none; no rods, no lengths."""
     filled = SHEETS.split("[[exports]]\n")[2]
     text = GEAR + BOARD.format(kerf="") + ON_BOARDS.split("[[exports]]\n")[1].join(["[[exports]]\n", "[[exports]]\n"])
-    assert told(text + filled, tmp_path) == ["s", "=", "", CUT, "", "s.board.1.dxf: 2 × z 12 m 2"]
+    assert told(text + filled, tmp_path) == ["s", "=", "", CUT, "", "s.board.1.dxf: 2 × Gear wheel z 12 m 2"]
     alone = '[[exports]]\nformat = "svg"\n'
     assert told(GEAR + alone, tmp_path) == ["s", "="]
     long = "word " * 60

@@ -155,7 +155,11 @@ def test_a_board_holds_all_that_is_cut_from_it_and_says_what_that_is(built: Path
         assert 1.0 < np.ptp(strokes.imag) < 25
     told = words(root)
     assert told[0][0] == "s: 200 × 200 × 4"
-    assert sorted(text.replace("\xa0", " ") for text, *_ in told[1:]) == ["1 × slab", "1 × z 12 m 2", "1 × z 15 m 2"]
+    assert sorted(text.replace("\xa0", " ") for text, *_ in told[1:]) == [
+        "1 × Gear a z 12 m 2",
+        "1 × Gear b z 15 m 2",
+        "1 × Plate slab",
+    ]
     for (text, x, y, size), sample in zip(told[1:], samples, strict=True):
         sx, sy, side = (float(sample.get(k, "")) for k in ("x", "y", "width"))
         assert side == size
@@ -164,7 +168,7 @@ def test_a_board_holds_all_that_is_cut_from_it_and_says_what_that_is(built: Path
         fill = re.findall(r"fill:(#\w+)", sample.get("style", ""))[0]
         own = [p for p, path in zip(pieces, filled, strict=True) if fill in path.get("style", "")]
         assert len(own) == 1
-        assert (own[0].area == pytest.approx(600.0)) == (text == "1 × slab")
+        assert (own[0].area == pytest.approx(600.0)) == (text == "1 × Plate slab")
         assert top + high < y < height
         following = [float(other.get("x", "")) for other in samples if float(other.get("x", "")) > sx]
         assert x + 0.45 * size * len(text) < min(following, default=width)
@@ -200,8 +204,8 @@ def test_words_on_a_plate_s_pieces_are_as_large_as_these_have_room_for(tmp_path:
         left, top, right, bottom = piece.bounds
         name = min(sizes, key=lambda n: abs(sizes[n][0] * sizes[n][1] - (right - left) * (bottom - top)))
         seen[name] = (text.lstrip("123 "), size)
-    assert seen["wide"][0] == "wide"
-    assert seen["short"][0] in ("", "short")
+    assert seen["wide"][0] == "Plate"
+    assert seen["short"][0] in ("", "Plate")
     # a number alone, in letters of three quarters: larger ones are higher than the piece
     assert seen["small"] == ("", pytest.approx(0.75 * seen["wide"][1]))
 
