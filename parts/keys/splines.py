@@ -32,8 +32,10 @@ _ALONE = re.compile(rf"{_CLASS}(?:/?{_CLASS})?")
 _APART = re.compile(rf"x(?={_FIT})")
 # what stands before z x d x D and d_B x m x z: the surface that centres, shaft (W) or hub (N)
 _PREFIX = re.compile(r"(?:[dDb]-?|[WN])?")
+# only 30 degrees has two forms of the root: 37.5 and 45 are whole without a letter
 _ISO = re.compile(
-    rf"(?:INT|EXT|INT/EXT)?(\d+)zx(\d+(?:\.\d+)?)mx(30|37\.5|45)([PR])(?:x{_CLASS}(?:/{_CLASS})?)?", re.IGNORECASE
+    rf"(?:INT|EXT|INT/EXT)?(\d+)zx(\d+(?:\.\d+)?)mx(30(?=[PR])|37\.5|45)([PR]?)(?:x{_CLASS}(?:/{_CLASS})?)?",
+    re.IGNORECASE,
 )
 # signs of multiplication, decimal commas, minus and dashes
 _SIGNS = str.maketrans("X\u00d7*,\u2212\u2013\u2014", "xxx.---")
@@ -269,7 +271,7 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             raise ParameterError("bore.size", self.size, "spline_centred_inside")
         if self.standard == "ISO 4156":
             iso = _ISO.fullmatch(plain)
-            root: Literal["flat", "fillet"] = "fillet" if iso and iso[4] in "Rr" else "flat"
+            root: Literal["flat", "fillet"] = "flat" if iso and iso[4] in ("P", "p") else "fillet"
             if iso is None or (float(iso[3]), root) not in standards.ISO_4156 or not float(iso[2]) > 0:
                 raise refusal
             if not _LEAST_TEETH <= int(iso[1]) <= _MOST_TEETH:

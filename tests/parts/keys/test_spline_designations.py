@@ -118,6 +118,9 @@ def test_zones_of_the_outer_diameter_stand_beside_it(size: str, code: str) -> No
         ("W 120 x 3 x 30 x 38 x 9H 8f", DIN, "120\u00d73\u00d738", False),
         ("INT/EXT 24z x 2,5m x 30R x 5H/5f", ISO, "24z\u00d72.5m\u00d730R", False),
         ("EXT 24Z X 2.5M X 30P X 5f ISO 4156", ISO, "24z\u00d72.5m\u00d730P", False),
+        # these angles have one form of the root, so their designation needs no letter
+        ("INT 24z x 2,5m x 37,5 x 6H", ISO, "24z\u00d72.5m\u00d737.5R", False),
+        ("INT/EXT 24z\u00d72.5m\u00d745\u00d76H/7h", ISO, "24z\u00d72.5m\u00d745R", False),
     ],
 )
 def test_involute_splines_are_read_from_their_drawings(
@@ -146,7 +149,14 @@ def test_a_designation_of_another_standard_is_told_so(size: str, given: Any, mea
 
 @pytest.mark.parametrize(
     ("size", "keys"),
-    [("50x2 DIN 5480", {}), ("24z x 0m x 30P", ISO), ("201z x 2m x 30P", ISO)],
+    [
+        ("50x2 DIN 5480", {}),
+        ("24z x 0m x 30P", ISO),
+        ("201z x 2m x 30P", ISO),
+        ("24z x 2m x 30", ISO),
+        ("24z x 2m x 45P", ISO),
+        ("24z x 2m x 37.5P x 5H", ISO),
+    ],
 )
 def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
     with pytest.raises(ParameterError) as caught:
@@ -160,6 +170,7 @@ def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
         ("INT/EXT 24z x 2,5m x 30R x 5H/5f", ISO, ("5H", "5f")),
         ("EXT 24z x 2,5m x 37.5R x 5js", ISO, ("", "5js")),
         ("24z x 2,5m x 30P", ISO, ("", "")),
+        ("INT/EXT 24z x 2,5m x 45 x 6H/7h", ISO, ("6H", "7h")),
         ("DIN 5480 - N 120 x 3 x 38 x 9H", DIN, ("9H", "")),
         ("W 120 x 3 x 30 x 38 x 8f", DIN, ("", "8f")),
         ("120 x 3 x 38 x 9H 8f", DIN, ("9H", "8f")),
