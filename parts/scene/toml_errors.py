@@ -35,6 +35,7 @@ _YES = ("yes", bytes.fromhex("0442 0430 043a").decode("utf-16-be"))
 _NO = ("no", bytes.fromhex("043d 0456").decode("utf-16-be"))
 _OPEN = re.compile(r"""\s*([\w.-]+)\s*=\s*("[^"]*|'[^']*)""")
 _NO_VALUE = re.compile(r"\s*([\w.-]+)\s*=?\s*(?:#.*)?")
+_NEXT_KEY = re.compile(r"\s*[;,]?\s*[\w.-]+\s*=")
 # what other languages begin a comment with
 _COMMENT = re.compile(r"\s*(?://|/\*|--|;)")
 
@@ -87,6 +88,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "comment_of_others", {"line": number}
     if why.startswith("Unclosed array") and line[column : column + 1] == ";":
         return "semicolon", {"line": number}
+    if why.startswith("Expected newline") and _NEXT_KEY.match(line[column:]):
+        return "keys_in_a_row", {"line": number}
     if (found := _NO_VALUE.fullmatch(line)) and look_alike(found[1]) is None:
         return "no_value", {"line": number, "key": found[1]}
     if why.startswith(("Invalid hex value", "Unescaped")):
