@@ -83,9 +83,10 @@ def test_plates_lie_on_the_bed_and_apart(tmp_path: Path) -> None:
         picture = file.with_suffix(".preview.svg").read_text("utf-8")
         pieces = [piece["part"] for piece in pieces_of(tmp_path / "set", file.name)["pieces"].values()]
         assert picture.count("<path ") == len(pieces)
-        for part in set(pieces):
-            assert len(re.findall(rf">\d {part}</text>", picture)) == pieces.count(part)
-            assert len(re.findall(rf">\d: {pieces.count(part)} × {part}</text>", picture)) == 1
+        for part, kind in {"ring": "Pin", "bar": "Plate"}.items():
+            assert len(re.findall(rf">\d {kind}</text>", picture)) == pieces.count(part)
+            told = re.findall(rf">\d: {pieces.count(part)} × {kind} {part}</text>", picture)
+            assert len(told) == (part in pieces)
     names: list[str] = []
     for file in files:
         found = meshes(file)
