@@ -107,6 +107,7 @@ def scenes() -> dict[str, Raw]:
         "least angle": _one(cam(base_circle_radius=None, least_transmission_angle_deg=60.0)),
         "table": _one(cam(phases=None, lift=None, motion_table=TABLE)),
         "swinging roller": _one(cam(**swing)),
+        "least swing": _one(cam(**swing, base_circle_radius=None, least_transmission_angle_deg=50.0)),
         "swinging pointed": _one(cam(**swing, follower="pointed", follower_radius=None)),
         "swinging flat": _one(cam(follower="flat", follower_radius=None, lift=None, swing_deg=10.0,
                                   oscillating={"centre_distance": 90.0})),

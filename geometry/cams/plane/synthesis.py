@@ -260,6 +260,7 @@ class OscillatingAxis(Record):
     prime_radius: float
 
 
+@lru_cache(maxsize=16)
 def oscillating_axis(
     motion: FollowerMotion, arm_length: float, sense: int, rise_limit: float, return_limit: float | None = None
 ) -> OscillatingAxis:
