@@ -59,7 +59,7 @@ def _taken(sheet: ReadSheet, expected: Expected, tolerance: float) -> Taken:
         expected.measures.check(sheet, taken)
     _check_words(sheet, canvas, taken)
     _check_strokes(sheet, canvas, taken)
-    _check_frame(sheet, canvas.reach.grown(taken.allowed), taken)
+    _check_frame(sheet, canvas.reach.grown(taken.room), taken)
     return taken
 
 
@@ -77,7 +77,7 @@ def _check_circles(sheet: ReadSheet, expected: Expected, taken: Taken) -> None:
             off = min((float(np.abs(r - circle.radius).max()) for r in spokes), default=math.inf)
         worst = max(worst, off)
         told = N_("{layer}: no circle of {radius:.6f} mm within {off:.3g} mm")
-        taken.unless(off <= taken.allowed, told, layer=circle.layer, radius=circle.radius, off=off)
+        taken.unless(off <= taken.room, told, layer=circle.layer, radius=circle.radius, off=off)
     taken.measured["circles"] = float(len(expected.circles))
     taken.measured["circle_deviation"] = worst
 
@@ -94,7 +94,7 @@ def _check_curves(sheet: ReadSheet, expected: Expected, taken: Taken) -> None:
             ends = np.abs(curve.point(np.array(curve.domain))[:, None] - model).min(1).max()
             worst = max(worst, off * paper.scale, float(ends) * paper.scale)
     taken.measured["max_deviation"] = worst
-    taken.unless(worst <= taken.allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
+    taken.unless(worst <= taken.room, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
 
 
 def _check_meshing(sheet: ReadSheet, wanted: Meshing, taken: Taken) -> None:
@@ -111,10 +111,10 @@ def _check_meshing(sheet: ReadSheet, wanted: Meshing, taken: Taken) -> None:
     for centre, radius in wanted.tangents:
         off = abs(abs(((centre - action.start) / way).imag) - radius)
         told = N_("the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm")
-        taken.unless(off <= 2 * taken.allowed + 1e-9 * radius, told, radius=radius, off=off)
+        taken.unless(off <= 2 * taken.room + 1e-9 * radius, told, radius=radius, off=off)
     for point in (active.start, active.end):
         off = abs(((point - action.start) / way).imag)
-        taken.unless(off <= 2 * taken.allowed, "the active line leaves the line of action by {off:.3g} mm", off=off)
+        taken.unless(off <= 2 * taken.room, "the active line leaves the line of action by {off:.3g} mm", off=off)
     base_pitch = 2 * math.pi * wanted.tangents[0][1] / wanted.teeth
     length, arc = abs(active.end - active.start), arcs[0].radius * arcs[0].sweep
     taken.measured["contact_ratio_by_line"] = length / base_pitch
@@ -125,10 +125,10 @@ def _check_meshing(sheet: ReadSheet, wanted: Meshing, taken: Taken) -> None:
         ("working pitch", pitches[0], wanted.pitch_length),
     ):
         told = N_("the {name} measures {value:.6f} mm instead of {right:.6f} mm")
-        taken.unless(abs(value - right) <= 2 * taken.allowed, told, name=name, value=value, right=right)
+        taken.unless(abs(value - right) <= 2 * taken.room, told, name=name, value=value, right=right)
     for name in ("contact_ratio_by_line", "contact_ratio_by_arc"):
         found, told = taken.measured[name], N_("{name} measures {found:.7f} instead of {wanted:.7f}")
-        near = abs(found - wanted.contact_ratio) <= max(1e-6, 4 * taken.allowed / wanted.pitch_length)
+        near = abs(found - wanted.contact_ratio) <= max(1e-6, 4 * taken.room / wanted.pitch_length)
         taken.unless(near, told, name=name, found=found, wanted=wanted.contact_ratio)
 
 
@@ -174,9 +174,9 @@ def _check_strokes(sheet: ReadSheet, canvas: Canvas, taken: Taken) -> None:
         wanted, found = _rows(_trace(*_sampled(c)) for c in curves), _rows(map(_trace, samples))
 
         def follows(k: int, n: int, curves: list[CadCurve] = curves, samples: list[Complex] = samples) -> bool:
-            return _follows(samples[n], curves[k], taken.allowed)
+            return _follows(samples[n], curves[k], taken.room)
 
-        away, strange = _unmatched(wanted, found, taken.allowed, follows)
+        away, strange = _unmatched(wanted, found, taken.room, follows)
         lost = N_("{layer}: no line from {start} to {end} mm")
         more = N_("{layer}: a line too many from {start} to {end} mm")
         for text, row in (*((lost, wanted[k]) for k in away), *((more, found[k]) for k in strange)):

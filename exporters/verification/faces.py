@@ -22,8 +22,7 @@ from geometry.curves.curve import Real
 from parts.base.texts import N_, unless
 
 if TYPE_CHECKING:
-    from geometry.solids.faced import FacedBody
-    from geometry.solids.measured import Measured
+    from geometry.solids.measured import Faced, Measured
 
 # places of the samples within each triangle and on each edge, in sixths
 _INNER = np.array([(a, b, 6 - a - b) for a in range(1, 5) for b in range(1, 6 - a)]) / 6
@@ -37,7 +36,7 @@ _AS_WELL, _SURE = 2.0, 1e-5
 _CELL, _STEEP = 5e-5, 2.0
 
 
-def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, tolerance: float) -> Verdict:
+def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a mesh against its exact solid."""
     count = {"triangles": float(len(mesh.triangles))}
     failures = topology_failures(mesh)
@@ -65,7 +64,7 @@ def verify_faced_mesh(mesh: ReadMesh, body: FacedBody, declared: float, toleranc
     return Verdict(measured, tuple(failures))
 
 
-def mesh_deviation(mesh: ReadMesh, body: FacedBody) -> tuple[float, int]:
+def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     """Greatest distance of samples of the triangles from the face that each lies in, mm, and faces without any.
 
     Of triangles that are one turned about the axis, by as much as surfaces may be, one is measured; how far the others
@@ -112,7 +111,7 @@ def _turned(mesh: ReadMesh, count: int, cell: float) -> tuple[NDArray[np.intp], 
     return like, off
 
 
-def _measured(mesh: ReadMesh, which: NDArray[np.intp], body: FacedBody) -> tuple[Real, Real, NDArray[np.bool_]]:
+def _measured(mesh: ReadMesh, which: NDArray[np.intp], body: Faced) -> tuple[Real, Real, NDArray[np.bool_]]:
     """Greatest distances of samples of some triangles from the face that each lies in, mm, and which faces have any.
 
     Between them: the same from such faces alone as all turns that ``mesh_deviation`` makes bring onto themselves.
@@ -155,7 +154,7 @@ def _greatest(face: Measured, shares: Real, corners: Real) -> Real:
     return np.asarray(face.distance(samples.reshape(-1, 3)).reshape(samples.shape[:2]).max(axis=1))
 
 
-def verify_faced_solid(found: ReadSolid, body: FacedBody, declared: float, tolerance: float) -> Verdict:
+def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact one: faces, edges, ends, volume."""
     model, surfaces = found.model, body.surfaces
     own = [np.array([face]) for face in range(len(model.faces))]

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from exporters.formats.readback import ReadMesh
     from geometry.plane.profile import Profile, Region
     from geometry.solids.body import Body
-    from geometry.solids.faced import FacedBody
+    from geometry.solids.measured import Faced
 
-Exact: TypeAlias = "Region | Body | FacedBody"
+Exact: TypeAlias = "Region | Body | Faced"
 
 
 @of_readable
@@ -84,7 +84,7 @@ def held(
     """
     if name is not None and (names := found.names()) is not None and names != (name,):
         raise ReadError(f"the file names its parts {', '.join(names) or 'nothing'} instead of {name}")
-    is_faced = kind.is_solid and cast("Body | FacedBody", exact).is_faced
+    is_faced = kind.is_solid and cast("Body | Faced", exact).is_faced
     return _HELD["faced " * is_faced + kind.form.name](found, exact, declared, tolerance)
 
 

@@ -13,7 +13,7 @@ from parts.solids.kernel import solids_of, volume_of
 
 if TYPE_CHECKING:
     from geometry.solids.body import Body
-    from geometry.solids.faced import FacedBody
+    from geometry.solids.measured import Faced
 
 # by which the kernel may call two points one, mm
 _TOLERANCE = 1e-6
@@ -21,7 +21,7 @@ _TOLERANCE = 1e-6
 _VOLUME = 1e-8
 
 
-def judged_by_kernel(file: Path, bodies: Sequence[Body | FacedBody], verdict: Verdict) -> Verdict:
+def judged_by_kernel(file: Path, bodies: Sequence[Body | Faced], verdict: Verdict) -> Verdict:
     """A verdict on a good file with what the kernel says: of a solid for each body closed, valid, and its volume."""
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance

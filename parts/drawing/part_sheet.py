@@ -71,7 +71,7 @@ class PartMeasures(Record):
                 off = min(off, float(distance_to_curve(model, curve).max()) * paper.scale)
             worst = max(worst, off)
         taken.measured["max_deviation"] = worst
-        taken.unless(worst <= taken.allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
+        taken.unless(worst <= taken.room, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
         if sheet.dimensions is None:
             return
         wanted = self.canvas.dimensions

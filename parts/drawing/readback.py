@@ -82,9 +82,9 @@ class ReadSheet(Draft):
 
 
 class Taken(Draft):
-    """What is measured off a sheet, and what is wrong with it; ``allowed``: mm on paper that all may be off."""
+    """What is measured off a sheet, and what is wrong with it; ``room``: mm on paper that all may be off."""
 
-    allowed: float
+    room: float
     measured: dict[str, float] = field(default_factory=dict)
     failures: list[str] = field(default_factory=list)
 

@@ -44,7 +44,7 @@ class CamMeasures(Record):
                 worst = max(worst, float(distance_by_sections(points, curve).max()))
                 worst = max(worst, float(np.abs(ends[:, None] - points).min(axis=1).max()))
         taken.measured["diagram_deviation"] = worst
-        taken.unless(worst <= taken.allowed, "diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst)
+        taken.unless(worst <= taken.room, "diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst)
         self._check_lines(sheet, taken)
         self._check_lift(sheet, taken)
         if self.joint is not None:
@@ -66,7 +66,7 @@ class CamMeasures(Record):
                 off = float(np.minimum(along, back).min())
             worst = max(worst, off)
             at = f"({start.real:.3f}, {start.imag:.3f}) - ({end.real:.3f}, {end.imag:.3f})"
-            taken.unless(off <= taken.allowed, "{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off)
+            taken.unless(off <= taken.room, "{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off)
         taken.measured["lines"] = float(len(self.lines))
         taken.measured["line_deviation"] = worst
 
@@ -78,7 +78,7 @@ class CamMeasures(Record):
         every = np.concatenate(heights)
         taken.measured["lift_by_diagram"] = lift = float(every.max() - every.min()) * self.lift_scale
         # an extreme within a curve lies between its samples: of a table of points only
-        near = lift <= self.lift + 2 * taken.allowed * self.lift_scale
+        near = lift <= self.lift + 2 * taken.room * self.lift_scale
         told = N_("the diagram of S measures {measured:.6f} instead of {lift:.6f}")
         taken.unless(near, told, measured=lift, lift=self.lift)
 
@@ -95,7 +95,7 @@ class CamMeasures(Record):
         off = abs(found - self.least_radius) * self.joint.scale
         text = f"{found:.6f} mm instead of {self.least_radius:.6f} mm"
         # the ends of a line carry its middle
-        taken.unless(off <= 8 * taken.allowed, "the tangents give the least radius {text}", text=text)
+        taken.unless(off <= 8 * taken.room, "the tangents give the least radius {text}", text=text)
 
     def _height(self, line: ReadLine) -> float:
         assert self.joint is not None

@@ -137,7 +137,7 @@ class PlanMeasures(Record):
                 continue
             off = max(max(abs(x.start - a), abs(x.end - b)) for x, (_, a, b) in zip(found, wanted, strict=True))
             taken.measured[f"{layer.lower()}_deviation"] = off
-            taken.unless(off <= taken.allowed, "{layer}: a line is {off:.3g} mm off", layer=layer, off=off)
+            taken.unless(off <= taken.room, "{layer}: a line is {off:.3g} mm off", layer=layer, off=off)
             slopes = {link: _slope(line) for line, (link, _, _) in zip(found, wanted, strict=True)}
             for link, slope in slopes.items():
                 if link == driver or not abs(slope) > _LEAST * max(map(abs, slopes.values())):
@@ -147,7 +147,7 @@ class PlanMeasures(Record):
                 taken.measured[name] = ratio
                 # the guidelines read it off a drawing: within a thousandth, where the dividers' points allow it
                 least = min(abs((x.end - x.start).real) for x in found)
-                near = abs(ratio / right - 1) <= max(1e-3, 8 * taken.allowed / max(least, 1e-300))
+                near = abs(ratio / right - 1) <= max(1e-3, 8 * taken.room / max(least, 1e-300))
                 told = N_("{name} measures {ratio:.6g} instead of {right:.6g}")
                 taken.unless(near, told, name=name, ratio=ratio, right=right)
 

@@ -109,7 +109,7 @@ class WormMeasures(Record):
                 off = np.abs(model[some] - curve.points(at, curve.line.exact(at))).max()
                 worst = max(worst, curve.paper.scale * float(max(off, ends)))
         taken.measured["contact_line_deviation"] = worst
-        taken.unless(worst <= taken.allowed, "lines of contact are {worst:.3g} mm off", worst=worst)
+        taken.unless(worst <= taken.room, "lines of contact are {worst:.3g} mm off", worst=worst)
 
 
 def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Expected:

@@ -6,7 +6,6 @@ import contextlib
 import importlib.abc
 import importlib.machinery
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -18,7 +17,6 @@ from typing import Any
 import pytest
 
 from exporters.command.cli import main
-from parts.mates.registry import MATES
 from tests.exporters.making import part_keys, run, write_scene
 from tests.exporters.outside import Gear
 
@@ -201,25 +199,6 @@ def test_the_kernel_is_asked_for_only_where_it_is(
     assert told.count("\n") == 1
     assert not (tmp_path / "s").exists()
     assert run("build", scene, "--out", tmp_path, "--verify", "reader", "-q") == 0
-
-
-@pytest.mark.parametrize("part", [
-    'kind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n', 'kind = "rack"\nmodule = 2.0\nnumber_of_teeth = 8\n',
-    'kind = "plate"\nwidth = 20.0\nheight = 20.0\n',
-    'kind = "turned"\npoints = [{ r = 0.0, z = 0.0 }, { r = 3.0, z = 0.0 }, { r = 0.0, z = 4.0 }]\n',
-])  # fmt: skip
-def test_one_part_alone_is_offered_a_mate_of_its_kind(
-    part: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """One that joins such parts, where any does; else the one that fixes any."""
-    (tmp_path / "s.toml").write_text(f"[parts.a]\n{part}", encoding="utf-8")
-    assert run("check", tmp_path / "s.toml") == 2
-    told = capsys.readouterr().err
-    assert told.startswith(f"higherpair: {tmp_path / 's.toml'}: mates: ")
-    (mate,) = re.findall(r'add \[\[mates\]\] kind = "(\w+)"', told)
-    kind = part.split('"')[1]
-    joining = [name for name in MATES if any(kind in pair for pair in MATES[name].joins or ())]
-    assert mate in (joining or ["fixed"])
 
 
 def test_an_environment_keeps_the_threads_that_it_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
