@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import random
 import tomllib
 from collections.abc import Iterator
@@ -58,6 +59,8 @@ PHASES = [
     {"move": "dwell", "angle_deg": 60.0},
 ]
 SWING = {"centre_distance": 90.0, "arm_length": 70.0}
+# measured at every degree, to hundredths
+ROWS = [[float(a), round(10 - 10 * math.cos(math.radians(a)) + (7 * a % 5 - 2) / 100, 2)] for a in range(360)]
 TABLE = [[0.0, 0.0], [60.0, 4.0], [120.0, 10.0], [200.0, 8.0], [300.0, 1.0]]
 
 
@@ -106,6 +109,7 @@ def scenes() -> dict[str, Raw]:
         "offset roller": _one(cam(follower_offset=10.0, bore_diameter=10.0, timing_mark={"diameter": 2.0})),
         "least angle": _one(cam(base_circle_radius=None, least_transmission_angle_deg=60.0)),
         "table": _one(cam(phases=None, lift=None, motion_table=TABLE)),
+        "measured": _one(cam(phases=None, lift=None, motion_table=ROWS, table_tolerance=0.05)),
         "swinging roller": _one(cam(**swing)),
         "least swing": _one(cam(**swing, base_circle_radius=None, least_transmission_angle_deg=50.0)),
         "swinging pointed": _one(cam(**swing, follower="pointed", follower_radius=None)),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta, Struct
@@ -120,7 +121,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
     ParameterError
         Both or neither of phases and table, or a motion that cannot be.
     """
-    from geometry.cams.motion.follower_motion import dwell, follower_motion, motion_of_table, return_, rise
+    from geometry.cams.motion.follower_motion import dwell, follower_motion, return_, rise
     from geometry.cams.motion.joins import with_joins
 
     key, unit = stroke_key(swings)
@@ -132,8 +133,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
         if lift != 0:
             raise ParameterError(key, lift, "lift_in_table", Nearest(0.0))
         try:
-            lifts = [s * unit for _, s in table]
-            return motion_of_table([math.radians(a) for a, _ in table], lifts, keys.table_tolerance * unit)
+            return _tabled(tuple(table), unit, keys.table_tolerance)
         except ParameterError as refusal:
             # a lift of a row, and what it may be left by, stand in the unit of its key
             in_unit = refusal.name.endswith("[2]") or refusal.name == "table_tolerance"
@@ -157,6 +157,15 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
     _check_whole_turn(phases)
     _check_return(phases)
     return follower_motion(with_joins(made, closed=True))
+
+
+# trials of another key of the cam ask for it, and a smoothed table of a thousand rows takes 60 ms
+@lru_cache(maxsize=16)
+def _tabled(table: tuple[tuple[float, float], ...], unit: float, tolerance: float) -> FollowerMotion:
+    """The motion of a table whose lifts, and what they may be left by, stand in a unit."""
+    from geometry.cams.motion.follower_motion import motion_of_table
+
+    return motion_of_table([math.radians(a) for a, _ in table], [s * unit for _, s in table], tolerance * unit)
 
 
 def steep(steepest: float, usual: float, code: str = "steep_pressure_angle") -> list[Finding]:

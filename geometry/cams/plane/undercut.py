@@ -283,9 +283,9 @@ def _crossing(
     best = math.inf, a, i, b, j
     for _ in range(_NEWTON_STEPS):
         left, right = cam.curve(pieces[i], grow), cam.curve(pieces[j], grow)
-        gap = complex(right.point(b)) - complex(left.point(a))
+        (there, v), (here, u) = (map(complex, curve.derivatives(t, 1)) for curve, t in ((right, b), (left, a)))
+        gap = there - here
         best = min(best, (abs(gap), a, i, b, j))
-        u, v = complex(left.derivative(a)), complex(right.derivative(b))
         whole = (u.conjugate() * v).imag
         if whole == 0:
             break

@@ -527,7 +527,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
         if lost is not None or hollow:
             if (refusal := by_impact(keys, cam.motion, _fits, swings=cam.swings, both=False)) is not None:
                 raise refusal
-            base = cam.base_radius
+            base = cam.base_radius if base is None else base
             if hollow and lost is None:
                 cure = limit(least * (1 + _SPARE), base)
                 raise UndercutError("base_circle_radius", base, "undercut_hollow", cure, radius=base - least)
