@@ -213,7 +213,7 @@ class Touching(Mating, kw_only=True):
     normal_backlash: float = 0.0
     has_contact: bool = True
 
-    def allowed(self, share: float, tolerance: float | None) -> float:
+    def tolerated(self, share: float, tolerance: float | None) -> float:
         """The gap that counts as contact, mm: as asked, else a share of the length that tolerances go by."""
         return share * self.module if tolerance is None else tolerance
 

@@ -140,7 +140,7 @@ class BearingMating(Touching):
         from geometry.plane.profile import Label
 
         gap = self.bore_diameter / 2 - self.module - abs(distance_off)
-        allowed = self.allowed(PIN_CONTACT_TOLERANCE, tolerance)
+        allowed = self.tolerated(PIN_CONTACT_TOLERANCE, tolerance)
         return stated_contact(gap, allowed, (Label.BODY, Label.BORE), complex(self.distance + self.module))
 
     def quantities(self) -> dict[str, Any]:
@@ -179,7 +179,7 @@ class OutputMating(Touching):
 
         arm = self.output.pitch_circle_diameter / 2
         gap = self.gap - distance_off - 2 * arm * abs(math.sin(phase_off / 2))
-        allowed = self.allowed(PIN_CONTACT_TOLERANCE, tolerance)
+        allowed = self.tolerated(PIN_CONTACT_TOLERANCE, tolerance)
         return stated_contact(gap, allowed, (Label.HOLE, Label.PIN), complex(arm + self.module))
 
     def findings(self) -> tuple[Finding, ...]:

@@ -78,7 +78,7 @@ class CamFollowerMating(Touching):
             return None
         from geometry.cams.contact.follower import CONTACT_TOLERANCE, follower_contact
 
-        allowed = self.allowed(CONTACT_TOLERANCE, tolerance)
+        allowed = self.tolerated(CONTACT_TOLERANCE, tolerance)
         beyond = None if self.groove is None else self.groove.outer()
         return follower_contact(self.cam, self.end, allowed, out=phase_off, beyond=beyond)
 

@@ -62,7 +62,7 @@ class ConjugateMating(Touching):
         """Verdict over one turn: the gaps under both rollers; ``phase_off`` rad: the second disk's turn."""
         from geometry.cams.contact.positive import conjugate_contact
 
-        return conjugate_contact(self.cam, self.other.pair, self.allowed(_CONTACT, tolerance), second_turn=phase_off)
+        return conjugate_contact(self.cam, self.other.pair, self.tolerated(_CONTACT, tolerance), second_turn=phase_off)
 
     def quantities(self) -> dict[str, Any]:
         """How both rollers stand on their follower."""
@@ -98,7 +98,7 @@ class YokeMating(Touching):
         """Verdict over one turn of the cam; ``phase_off``: mm by which the frame stands too far out."""
         from geometry.cams.contact.positive import yoke_contact
 
-        breadth, allowed = self.frame.breadth - self.frame.play, self.allowed(_CONTACT, tolerance)
+        breadth, allowed = self.frame.breadth - self.frame.play, self.tolerated(_CONTACT, tolerance)
         return yoke_contact(self.cam, breadth, self.frame.play, allowed, out=phase_off)
 
     def quantities(self) -> dict[str, Any]:

@@ -89,7 +89,7 @@ class WedgeMating(Touching):
         from geometry.cams.contact.follower import CONTACT_TOLERANCE
         from geometry.cams.contact.wedge import wedge_contact
 
-        return wedge_contact(self.cam, self.end, self.allowed(CONTACT_TOLERANCE, tolerance), out=phase_off)
+        return wedge_contact(self.cam, self.end, self.tolerated(CONTACT_TOLERANCE, tolerance), out=phase_off)
 
     def quantities(self) -> dict[str, Any]:
         """How far the follower moves, and where the plate stands, mm."""
