@@ -147,6 +147,14 @@ def reduced_inertia(bodies: Iterable[Body], moving: Mapping[str, Frame], speed: 
     return total
 
 
+def weights_work(bodies: Iterable[Body], gravity: complex, moving: Mapping[str, Frame]) -> Real:
+    """What the weights have done since the first position, J; ``gravity``: m/s^2, with its direction."""
+    fallen = np.zeros(np.shape(moving["1"].way[0]))
+    for body in bodies:
+        fallen = fallen + body.mass * np.real(gravity.conjugate() * moving[body.link].point(body.centre)[0]) / 1000
+    return fallen - fallen[0]
+
+
 def by_zhukovsky(acting: Iterable[Acting], moving: Mapping[str, Frame], speed: float) -> Real:
     """The balancing moment of virtual power, no joint being asked: the sum of the moments of all forces about the pole
     of the plan of velocities that is turned by a right angle.

@@ -15,7 +15,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.roots import bracketed_roots
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
-from geometry.kinematics.kinetostatics import frames, reduced_inertia
+from geometry.kinematics.kinetostatics import frames, reduced_inertia, weights_work
 from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
@@ -413,7 +413,8 @@ class _Page:
         against = sum((np.maximum(ahead if forward else -ahead, 0.0) for forward in ways), np.zeros(len(place)))
         resisting = resistance * against / keys.speed
         bodies = self.forces.bodies
-        inertia = reduced_inertia(bodies, frames(self.levers, self.turn), keys.speed)
+        moving = frames(self.levers, self.turn)
+        inertia = reduced_inertia(bodies, moving, keys.speed)
         inertia = np.append(inertia, inertia[0])
         angle = self.start + 2 * math.pi * np.arange(self.fine + 1) / self.fine
         try:
@@ -421,8 +422,6 @@ class _Page:
         except ParameterError as error:
             raise error.renamed(resists) from error
         page.section("Flywheel, by Mertsalov")
-        if weighs(keys) and keys.gravity:
-            page.note("weights, which do no work over a turn, are left out of the flywheel")
         page.add("unevenness", keys.unevenness, given=True)
         page.add("resisting_work", float(resistance * gone[-1]))
         page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
@@ -431,6 +430,13 @@ class _Page:
             page.add("greatest_reduced_inertia", float(inertia.max()))
         page.add("flywheel_energy", wheel.swing)
         page.add("flywheel_inertia", wheel.moment, "{dT} / ({omega_1}**2 * {delta})", _MERTSALOV)
+        if weighs(keys) and keys.gravity:
+            page.note("weights, which do no work over a turn, are left out of the flywheel's diagrams")
+            fallen = weights_work(bodies, cmath.rect(keys.gravity, math.radians(keys.gravity_angle_deg)), moving)
+            swing_of_all = float(np.ptp(wheel.of_flywheel[:-1] + fallen))
+            page.add("weighed_flywheel_energy", swing_of_all)
+            page.add("weighed_flywheel_inertia", swing_of_all / (keys.speed**2 * keys.unevenness),
+                     "{dT_G} / ({omega_1}**2 * {delta})")  # fmt: skip
         turned = wheel.driving * (angle - angle[0])
         columns = (np.degrees(angle), resisting, inertia, resistance * gone, turned,
                    wheel.gained, wheel.of_links, wheel.of_flywheel)  # fmt: skip

@@ -21,6 +21,8 @@ from tests.exporters.documents.test_calc_lever import calculated, value
 ENGINE = ("first=slider", "crank_length=70", "coupler_length=210", "speed=150", "start_angle_deg=40")
 SIX = ("masses.1=5", "masses.2=3", "masses.3=20", "inertias.3=1.5", "centre_offsets.3=20", "masses.4=6",
        "inertias.4=0.2", "masses.5=40", "point_masses.A=1")  # fmt: skip
+SLOW = ("first=slider", "crank_length=70", "coupler_length=210", "speed=5", "start_angle_deg=40", "resistance=300",
+        "unevenness=0.05", "masses.3=40")  # fmt: skip
 THREE = ("masses.1=5", "centres.1=10", "masses.2=3", "inertias.2=0.02", "masses.3=4", "resistance=1000")
 
 
@@ -220,11 +222,31 @@ def test_the_flywheel_takes_masses_without_the_forces_of_weight() -> None:
     flat = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5", "gravity=0")
     assert value(heavy, "J_m") == value(flat, "J_m")
     assert any("left out of the flywheel" in note for note in heavy["notes"])
+    assert "J_m,G" not in {step["symbol"] for step in flat["steps"]}
     assert "g" in {step["symbol"] for step in heavy["steps"]}
     assert "g" not in {step["symbol"] for step in flat["steps"]}
     light = calculated(*ENGINE, "resistance=2000", "unevenness=0.05")
     assert not any("left out of the flywheel" in note for note in light["notes"])
     assert not any("left out of the flywheel" in note for note in flat["notes"])
+
+
+def test_the_flywheel_with_the_work_of_the_weights() -> None:
+    # an upright piston, by its closed form: the crank turns evenly, so the work of its weight goes to the flywheel
+    told = calculated(*SLOW, "gravity_angle_deg=180")
+    angle = math.radians(40) + np.linspace(0, 2 * math.pi, 100001)
+    sine, root = np.sin(angle), np.sqrt(0.21**2 - (0.07 * np.sin(angle)) ** 2)
+    place = 0.07 * np.cos(angle) + root
+    speed = 5 * -0.07 * (sine + 0.07 * sine * np.cos(angle) / root)
+    resisted = 300 * np.append(0.0, np.cumsum(np.abs(np.diff(place))))
+    rest = resisted[-1] * (angle - angle[0]) / (2 * math.pi) - resisted - 40 * speed**2 / 2
+    assert value(told, "ΔT_m") == pytest.approx(float(np.ptp(rest)), rel=1e-5)
+    with_weight = float(np.ptp(rest - 40 * 9.81 * place))
+    assert value(told, "ΔT_m,G") == pytest.approx(with_weight, rel=1e-5)
+    assert value(told, "J_m,G") == pytest.approx(with_weight / (5**2 * 0.05), rel=1e-5)
+    assert with_weight > 1.5 * value(told, "ΔT_m")
+    # across the guide the weight of a piston does nothing
+    level = calculated(*SLOW)
+    assert value(level, "J_m,G") == pytest.approx(value(level, "J_m"), rel=1e-12)
 
 
 @pytest.mark.parametrize("factor", [1e-9, 1.0, 1e6])
