@@ -12,12 +12,12 @@ import gc
 import random
 import sys
 from collections.abc import Generator, Hashable
+from contextlib import suppress
 from inspect import isfunction
 from typing import Any
 
 import pytest
 from hypothesis import core, is_hypothesis_test, settings
-from hypothesis.internal.conjecture import providers
 
 from tests.sampling import chosen, some_of, take_all_examples
 
@@ -32,8 +32,12 @@ if _SEED := os.environ.get("HYPOTHESIS_SEED", ""):
 settings.register_profile("ours", derandomize=not _SEED, deadline=None)
 settings.load_profile("ours")
 # nor do they depend on what a worker has imported so far: hypothesis parses every file of the product for its numbers
-# and words, three seconds of each worker, and draws of those it has found; a test names the words it wants
-providers._get_local_constants = lambda: providers._local_constants
+# and words, three seconds of each worker, and draws of those it has found; a test names the words it wants.
+# No setting turns it off; a hypothesis without these names draws as it does by itself
+with suppress(ImportError, AttributeError):
+    from hypothesis.internal.conjecture import providers
+
+    providers._get_local_constants = lambda none=providers._local_constants: none
 
 
 # as much garbage as a heavy test makes: looked for sooner, it costs each run seconds and frees nothing
