@@ -62,6 +62,10 @@ SWING = {"centre_distance": 90.0, "arm_length": 70.0}
 # measured at every degree, to hundredths
 ROWS = [[float(a), round(10 - 10 * math.cos(math.radians(a)) + (7 * a % 5 - 2) / 100, 2)] for a in range(360)]
 TABLE = [[0.0, 0.0], [60.0, 4.0], [120.0, 10.0], [200.0, 8.0], [300.0, 1.0]]
+SLIDERS = {"kind": "linkage_cam", "follower": "roller", "follower_radius": 6.0, "lift": 20.0,
+           "driven": {"member": "slider", "start": [25.0, 30.0], "direction_deg": 90.0},
+           "guide": {"member": "slider", "through": [0.0, 60.0], "assembly": "forward"},
+           "coupler_length": 43.0, "coupler_point": [0.0, 16.0], "phases": PHASES}  # fmt: skip
 
 
 def cam(**keys: Any) -> Raw:
@@ -129,6 +133,7 @@ def scenes() -> dict[str, Raw]:
         "end barrel": _one(barrel | {"form": "end", "lift": 12.0, "web_thickness": 4.0, "end_margin": 12.0,
                                      "hub": {"diameter": 30.0}, "bore_diameter": 8.0}),
         "barrel table": _one({k: v for k, v in barrel.items() if k != "phases"} | {"motion_table": TABLE}),
+        "two sliders": _one(SLIDERS),
         "own law": _one(cam(phases=[PHASES[0] | {"law": {"first_half": [{"shape": "constant", "width": 1.0,
             "ordinate": 1.0}], "second_half": [{"shape": "half_sine", "width": 1.0, "peak": 1.0}]}}, *PHASES[1:]])),
         "flat arm": _one({"kind": "follower_arm", "end": "flat", "arm_length": 90.0, "boss_diameter": 8.0,

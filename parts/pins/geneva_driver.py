@@ -140,8 +140,12 @@ def _check(keys: GenevaDriverSpec, driver: GenevaDriver) -> None:
     # its layers are bounded by lines and arcs
     if driver.piece == "whole" and isinstance(keys.bore, InvoluteSplineTable):
         raise ParameterError("bore.shape", "involute_spline", "not_of_this_piece")
-    room = abs(disc.apex) - least_wall(disc.wheel.locking_radius) * (1 + MARGIN)
+    wall = least_wall(disc.wheel.locking_radius) * (1 + MARGIN)
+    room = abs(disc.apex) - wall
     if bored and driver.holes.bore_reach > room:
+        if keys.relief_clearance is None:
+            # by default half of what a wide bore leaves
+            room = max(room, disc.swept_apex - wall)
         raise wide_bore(keys, max(room, 0.0), "bore_reaches_relief")
     if driver.piece != "disc":
         every = HubHoles(driver.holes.bore, (seats, *driver.holes.round_holes))

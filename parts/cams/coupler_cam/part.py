@@ -198,11 +198,11 @@ def linkage_cam_of(keys: LinkageCamSpec) -> LinkageCam:
 
 
 def _is_whole(keys: LinkageCamSpec) -> bool:
-    """Whether the quick test proves that nothing of the cam is undercut, and it has room for plate and holes."""
-    from geometry.cams.plane.undercut import is_whole
+    """Whether nothing of the cam is undercut, and it has room for plate and holes."""
+    from geometry.cams.plane.undercut import is_uncut
 
     cam = linkage_cam_of(keys)
-    if not is_whole(cam):
+    if not is_uncut(cam):
         return False
     _check_part(keys, cam)
     return True

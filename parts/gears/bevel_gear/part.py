@@ -178,7 +178,7 @@ def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float, reach: float
     begins = gear.rim.imag if keys.hub_diameter else gear.outer(gear.root_angle).imag
     if distance <= begins:
         raise ParameterError("mounting_distance", distance, "bevel_mounted_in_teeth",
-                             limit(begins + 0.01 * keys.module, distance), least=begins)  # fmt: skip
+                             limit(begins + 1e-3 * keys.module, distance), least=begins)  # fmt: skip
     if keys.hub_diameter:
         return replace(gear, blank=replace(gear.blank, hub_length=distance - begins))
     sine = math.sin(gear.pitch_angle)

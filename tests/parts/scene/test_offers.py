@@ -22,7 +22,7 @@ from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.plane import undercut
 from parts.base.refusal import SceneError, sentence
 from parts.scene.load import make_parts, scene_from_dict
-from tests.offered import Raw, at, cam, put, scenes, spoiled
+from tests.offered import SLIDERS, Raw, at, cam, put, scenes, spoiled
 
 # trials of each scene in a turn
 TRIALS = 3
@@ -124,6 +124,8 @@ CUT = {"spur_gear": 20, "ring_gear": 60}
         # before: built where the offer said it would not
         (cam(hub={"diameter": 45.0, "above": 5.0}, bore_diameter=10.0,
              holes=[{"count": 4, "diameter": 5.0, "pitch_circle_diameter": 50.0}]), "hub.diameter"),
+        # before: 65.2738, where 59.4519 works
+        (SLIDERS | {"driven": {"member": "slider", "start": [25.0, 0.6], "direction_deg": 90.0}}, "coupler_length"),
         *(({"kind": kind, "module": 2.0, "number_of_teeth": z, "cutter": {"number_of_teeth": teeth}},
            "cutter.number_of_teeth") for kind, z in CUT.items() for teeth in (3, 8)),
     ],
