@@ -97,13 +97,17 @@ class Tops:
         left, top, right, low = label.box
         if not self._holds(label):
             return 0
-        beside = self._within(left - label.size, top - label.size, right + label.size, low + label.size)
+        # right above or below its part others may stand beside its ends, as in a row
+        high, deep = top - label.size, low + label.size
+        beside = self._within(left - label.size, high, right + label.size, deep)
+        middle = self._within(label.x - label.size, high, label.x + label.size, deep)
         under = set(self._within(left, top, right, low).ravel().tolist())
         if left < self._low.real or top < self._low.imag or right > self._high.real or low > self._high.imag:
             under.add(-1)
         if under == {number}:
             return 2
-        return int(under == {-1} and {number} <= set(beside.ravel().tolist()) <= {number, -1})
+        near = (set(cells.ravel().tolist()) for cells in (beside, middle))
+        return int(under == {-1} and any({number} <= seen <= {number, -1} for seen in near))
 
     def plain(self, boxes: Real) -> NDArray[np.bool_]:
         """Which boxes (left, top, right, bottom along the last axis) are whole in the picture, over no edge."""

@@ -318,3 +318,17 @@ def test_a_word_goes_to_the_nearest_place_that_is_free() -> None:
     assert all(
         a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1] for k, a in enumerate(boxes) for b in boxes[:k]
     )
+
+
+def test_a_word_wider_than_its_part_stands_above_or_below_it_in_a_row() -> None:
+    """Neighbours stand beside its ends: lines to all of them were drawn; between two of them it would name neither."""
+    square = np.array([0, 40, 40 + 40j, 40j])
+    tops = Tops([[square + 60 * k] for k in range(3)], picture=(-60 - 60j, 220 + 100j))
+    word = Label("as wide as two", 80.0, -4.0, 11.0)
+    left, _, right, _ = word.box
+    assert left < 40
+    assert right > 120
+    assert [tops.shows(word, k) for k in range(3)] == [0, 1, 0]
+    assert tops.shows(Label(word.text, 50.0, -4.0, 11.0), 0) == tops.shows(Label(word.text, 50.0, -4.0, 11.0), 1) == 0
+    named = spread_labels([Label(f"as wide as two {k}", 20.0 + 60 * k, 24.0, 11.0) for k in range(3)], tops)
+    assert [one is not None and one.leads is None and one.x for one in named] == [20.0, 80.0, 140.0]
