@@ -53,8 +53,34 @@ def joined(
             mated(ends, [mate], part_of)
         except ParameterError as refusal:
             raise pair_refused(refusal, ends, mate, mates, part_of, source, place) from refusal
-    final, matings = mated(ends, mates, part_of)
+    try:
+        final, matings = mated(ends, mates, part_of)
+    except ParameterError as refusal:
+        raise _refused_together(refusal, ends, mates, part_of, source) from refusal
     return {key: end.thing for key, end in final.items()}, matings
+
+
+def _refused_together(
+    refusal: ParameterError, ends: Ends, mates: Sequence[MateKeys], part_of: PartOf, source: str
+) -> SceneError:
+    """The refusal of mates of which each stands alone: by the backlash that alone is to blame, else by the first mate
+    that does not stand beside those before it.
+    """
+
+    def stand(number: int, backlash: float) -> bool:
+        changed = tried(mates[number], "normal_backlash", backlash)
+        return bool(mated(ends, [*mates[:number], changed, *mates[number + 1 :]], part_of))
+
+    last = next(k for k in range(len(mates)) if not kept(lambda k: bool(mated(ends, mates[: k + 1], part_of)), k))
+    asked = {k: backlash for k, mate in enumerate(mates) if (backlash := getattr(mate, "normal_backlash", 0.0))}
+    for number in sorted(asked, key=asked.__getitem__, reverse=True):
+        if kept(partial(stand, number), 0.0):
+            cure = partial(nearest, partial(stand, number), asked[number], 0.0)
+            gears = [part_of[mates[last].second]]
+            wrong = ParameterError("normal_backlash", asked[number], "backlash_leaves_no_teeth", cure, gears=gears)
+            return placed(source, f"mates[{number + 1}]", wrong, unit_of(type(mates[number]), wrong.name))
+    bare = refusal.told_of(refusal.name, refusal.value, None)
+    return pair_refused(bare, ends, mates[last], mates, part_of, source, f"mates[{last + 1}]")
 
 
 def check_fit(

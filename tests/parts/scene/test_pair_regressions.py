@@ -138,3 +138,33 @@ def test_offers_of_distances_work(distance: float) -> None:
     raw = pair("internal_gear_pair", ring, {"working_centre_distance": distance})
     raw["mates"][0]["working_centre_distance"] = offered(raw)
     assert checked(raw)["mates"][0]["contact_ratio"] >= 1 - 1e-3
+
+
+def test_a_backlash_that_each_pair_of_a_train_takes_alone_and_both_do_not_is_told() -> None:
+    """The idler is thinned for the driver too, so that teeth that the wheel leaves whole alone are pointed."""
+
+    def train(backlash: float) -> dict[str, Any]:
+        rows = {"driver": (17, 0.3), "idler": (23, 0.15), "wheel": (31, -0.2)}
+        parts = {name: {"kind": "spur_gear", "module": 2.0, "number_of_teeth": z, "profile_shift_coefficient": x}
+                 for name, (z, x) in rows.items()}  # fmt: skip
+        first = {"kind": "external_gear_pair", "first": "driver", "second": "idler", "normal_backlash": backlash}
+        second = {"kind": "external_gear_pair", "first": "idler", "second": "wheel", "normal_backlash": 0.05}
+        return {"parts": parts, "mates": [first, second]}
+
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict(train(1.2), "t", "t"), "t")
+    told = refused.value
+    assert (told.key, told.code, told.numbers["gears"]) == (
+        "mates[1].normal_backlash", "backlash_leaves_no_teeth", ["wheel"])  # fmt: skip
+    assert told.nearest is not None
+    most = told.nearest.value
+    assert isinstance(most, float)
+    make_parts(scene_from_dict(train(most), "t", "t"), "t")
+    with pytest.raises(SceneError):
+        make_parts(scene_from_dict(train(most * 1.001), "t", "t"), "t")
+    # each pair alone takes it
+    for kept in (0, 1):
+        alone = train(1.2)
+        names = [alone["mates"][kept][end] for end in ("first", "second")]
+        make_parts(scene_from_dict({"parts": {n: alone["parts"][n] for n in names}, "mates": [alone["mates"][kept]]},
+                                   "t", "t"), "t")  # fmt: skip
