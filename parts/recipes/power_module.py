@@ -64,8 +64,12 @@ _FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
 _RACE_SCREWS, _RACE_START = 32, 1.875
 # disk 3: how deep its recess for screws is
 _RECESS = 17.0
-# what is turned, a row of ``module_bodies.psv`` each: points of half a section and holes, made of sizes and of these
-_BODIES = {name: (points, holes) for name, points, holes in rows_of(__file__, "module_bodies")}
+# what is turned, a row of ``module_bodies.psv`` each: points of half a section, holes and lengths of its own, made of
+# sizes and of these
+_BODIES = {
+    name: (points, holes, dict(one.split(" = ") for cell in own for one in cell.split("; ")))
+    for name, points, holes, *own in rows_of(__file__, "module_bodies")
+}
 
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
 
@@ -278,7 +282,9 @@ class _Making(Making):
         """Parts of the table of what is turned, where they are needed first: files have all in the order of making."""
         for name in names:
             if name in _BODIES and name not in self.found.parts:
-                points, holes = (listed(made_of, _SHAPES | self.s) for made_of in _BODIES[name])
+                *told, own = _BODIES[name]
+                known = _SHAPES | self.s | {key: valued(made_of, self.s) for key, made_of in own.items()}
+                points, holes = (listed(made_of, known) for made_of in told)
                 self._turned(name, points, *(holes_on(int(count), *where) for count, *where in holes))
 
     def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> str:
