@@ -15,12 +15,12 @@ def check_free(file: Path) -> None:
     Raises
     ------
     SceneError
-        It exists.
+        It exists, or is a folder.
     """
     if file.exists() or file.is_symlink():
         from parts.base.refusal import SceneError
 
-        raise SceneError(str(file), "", None, "file_exists")
+        raise SceneError(str(file), "", None, "folder_for_file" if file.is_dir() else "file_exists")
 
 
 @contextmanager

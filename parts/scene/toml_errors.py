@@ -23,9 +23,15 @@ _UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)(\s*)(?:%|[^\W\d_]+(?:/
 # a number, text or list that would be one but for a colon, a second sign, a lone point, a first 0, a printed minus or
 # degree, or for what other languages end a line with
 _ALMOST = re.compile(
-    r"\s*([\w.-]+)\s*(?::=?|==?)\s*(?:([-+\u2212\u2013]?)(\d*)(\.?)(\d*)|(\"[^\"]*\"|true|false|\[[^\]]*\]))"
-    r"\s*\u00b0?\s*;?\s*(?://.*|#.*)?"
+    r"\s*\"?([\w.-]+)\"?\s*(?::=?|==?)\s*(?:([-+\u2212\u2013]?)(\d*)(\.?)(\d*)|(\"[^\"]*\"|true|false|\[[^\]]*\]))"
+    r"\s*\u00b0?\s*[;,]?\s*(?://.*|#.*)?"
 )
+# one that is to be worked out, a text in quotes that has some itself, a key of some words
+_SHARE = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(-?\d+\.?\d*)\s*([*/])\s*(\d+\.?\d*)\s*\)?\s*(?:#.*)?")
+_QUOTES_WITHIN = re.compile(r"\s*([\w.-]+)\s*=\s*([\"'])([^\\]*)\2\s*(?:#.*)?")
+_WORDS = re.compile(r"\s*([A-Za-z]\w*(?: +\w+)+)\s*=\s*(.*\S)\s*")
+# what files of other formats begin with
+_OTHERS, _YAML = {"{": "JSON", "<": "XML"}, re.compile(r"[\w-]+:\s*$")
 _NOT_LATIN = re.compile(r"\s*(\w*[^\W\x00-\x7f]\w*)\s*=")
 # the header of a table, and what a name in it is made of
 _TABLE = re.compile(r"\s*\[\[?([^\[\]\"'#]+)\]\]?\s*(?:#.*)?")
@@ -78,6 +84,9 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return None if opened is None else ("quote_not_closed", {"line": opened[0], "key": opened[1]})
     number, column = int(at[1]), int(at[2]) - 1
     line = text.split("\n")[number - 1]
+    form = "YAML" if _YAML.match(line) else _OTHERS.get(line.strip()[:1])
+    if form is not None:
+        return "other_format", {"line": number, "format": form}
     if hidden := next((c for c in line if unicodedata.category(c) == "Cf"), None):
         return "hidden_character", {"line": number, "letter": f"U+{ord(hidden):04X}"}
     if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
@@ -94,6 +103,16 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "no_value", {"line": number, "key": found[1]}
     if why.startswith(("Invalid hex value", "Unescaped")):
         return "backslash", {"line": number}
+    if (found := _SHARE.fullmatch(line)) and (by := float(found[4])):
+        value = f"{float(found[2]) * by if found[3] == '*' else float(found[2]) / by:.12g}"
+        return "not_calculated", {"line": number, "key": found[1], "value": value}
+    if (found := _QUOTES_WITHIN.fullmatch(line)) and found[2] in found[3]:
+        bare = found[3].strip(found[2])
+        other = "\"'"[found[2] == '"'] if found[2] in bare else found[2]
+        if other not in bare:
+            return "small_letters", {"line": number, "key": found[1], "value": f"{other}{bare}{other}"}
+    if why.startswith("Expected '='") and (found := _WORDS.fullmatch(line)):
+        return "small_letters", {"line": number, "key": re.sub(" +", "_", found[1]), "value": found[2]}
     if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", line):
         return "decimal_comma", {"line": number, "number": f"{found[1]}.{found[2]}"}
     if why.startswith("Invalid value") and (found := _BARE.search(line)) and found.start(2) == column:
@@ -114,6 +133,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         value = other or f"{sign and ('+' if sign == '+' else '-')}{whole.lstrip('0') or 0}{point and f'.{rest or 0}'}"
         if (other or whole or rest) and not re.match(rf"\s*{re.escape(key)} *= *{re.escape(value)}\s*(#|$)", line):
             return "small_letters", {"line": number, "key": key, "value": value}
+    if why.startswith("Expected '='") and line[column:].lstrip().startswith(":"):
+        return "colon", {"line": number}
     if (found := _NOT_LATIN.match(line)) and found.end(1) > column and look_alike(found[1]) is None:
         return "key_not_latin", {"line": number, "key": found[1]}
     if (found := _TABLE.fullmatch(line)) and look_alike(found[1]) is None:

@@ -97,6 +97,8 @@ def test_no_page_is_written_over_a_file(
     for place in (file, link, Path(os.devnull)):
         assert run(*command, "--out", place) == 2
         assert "exists already" in capsys.readouterr().err
+    assert run(*command, "--out", tmp_path) == 2
+    assert "is a folder; give the name of a file in it" in capsys.readouterr().err
     assert file.read_text(encoding="utf-8") == "mine"
     assert link.is_symlink()
     missing = tmp_path / "none" / "a.toml"
