@@ -90,13 +90,11 @@ def spline_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[
 
 
 def tip_zone(joint: StraightJoint | InvoluteJoint, usual: str) -> str:
-    """The zone of D of a shaft, by its designation or as usual; none where its limit is told beside the views."""
+    """The zone of D of a shaft, by its designation, or as usual of teeth that it centres; none of other ones."""
     for fit in joint.fits:
         if fit.symbol == "D" and fit.shaft:
             return fit.shaft
-    if isinstance(joint, StraightJoint) or (limits := side_limits(joint, is_shaft=True)) is None:
-        return usual
-    return usual if greatest_tip(joint, limits) is None else ""
+    return usual if isinstance(joint, StraightJoint) and joint.centring == "outer" else ""
 
 
 def _involute(joint: InvoluteJoint, bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[str, ...]:

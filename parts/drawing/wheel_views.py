@@ -633,7 +633,10 @@ def _spline_circles(bore: SplineBore) -> list[Stroke]:
 def spline_sizes(
     bore: SplineBore, subject: Subject, *, is_shaft: bool
 ) -> tuple[tuple[Size, ...], tuple[Round, ...], Note]:
-    """Of upright slots, or of the teeth of their shaft: width of straight ones, diameters, designation (GOST 2.409)."""
+    """Of upright slots, or of the teeth of their shaft: width of straight ones, diameters, designation (GOST 2.409).
+
+    The outer diameter of a shaft is told along it, and not once more (GOST 2.307).
+    """
     joint, wishes = bore.joint, subject.wishes
     form, play = (joint.shaft(), -bore.clearance) if is_shaft else (bore.form, 0.0)
     straight = joint if isinstance(joint, StraightJoint) else None
@@ -652,7 +655,7 @@ def spline_sizes(
     side = form.flank.shifted(play).at((form.inner + form.outer) / 2 + play).conjugate() * 1j
     width = Size("spline.width", complex(-side.real, side.imag), side, "above", "", zones.get("b", ""))
     note = Note(side, subject.words(f"spline_{joint.standard}", name=joint.named(is_shaft=is_shaft)))
-    return (width,) if straight else (), rounds, note
+    return (width,) if straight else (), rounds[1:] if is_shaft else rounds, note
 
 
 def _corner(centre: complex, radius: float, angles: tuple[float, ...]) -> Round:
