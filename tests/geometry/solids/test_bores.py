@@ -12,6 +12,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.record import replace
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_profile, profile_area
@@ -127,6 +128,18 @@ def test_a_grown_keyway_in_closed_form(name: str) -> None:
     bore = BORES[name]
     assert isinstance(bore, KeywayBore)
     assert profile_area(bore.profile(-0.3)) == pytest.approx(-area_of_keyway(bore, -0.3), rel=1e-12)
+    # sharp corners of the bottom stay sharp where the hole is made wider
+    wide = replace(bore, corner_radius=bore.corner_radius or -0.3)
+    assert profile_area(bore.widened(0.3).profile()) == pytest.approx(-area_of_keyway(wide, -0.3), rel=1e-12)
+
+
+@pytest.mark.parametrize("hole", [RoundBore(10.0), BORES["rounded hexagon"], Spokes(5, 20.0, 40.0, 3.0, 1.0, 0.2)])
+def test_a_smooth_hole_made_wider_is_its_parallel(hole: Bore | Spokes) -> None:
+    """Steiner: a closed curve without corners moved d outwards encloses A + L d + pi d^2."""
+    one, wide = (h.profiles()[0] if isinstance(h, Spokes) else h.profile() for h in (hole, hole.widened(0.3)))
+    length = float(np.abs(np.diff(outline(one), append=outline(one)[:1])).sum())
+    exact = -profile_area(one) + length * 0.3 + math.pi * 0.3**2
+    assert profile_area(wide) == pytest.approx(-exact, rel=1e-5)
 
 
 def test_areas_of_windows_and_of_holes_far_from_the_axis() -> None:

@@ -28,3 +28,13 @@ def test_an_angle_is_hatched_all_over_either_way(falls: bool) -> None:
         at, way = (line.start + line.end) / 2, line.end - line.start
         assert (0 < at.real < 30 and 0 < at.imag < 5) or (0 < at.real < 8 and 0 < at.imag < 20)
         assert way.imag / way.real == pytest.approx(-1.0 if falls else 1.0)
+
+
+def test_stubs_are_left_out_where_a_section_comes_to_a_point() -> None:
+    """A wedge of 10 degrees: its lines end a third of a spacing or more apart, and cover all but its tip."""
+    corners = (0j, 30 + 0j, 30 + 30j * np.tan(np.radians(10)))
+    loop = [Line(complex(a), complex(b)) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True)]
+    for spacing in (0.3, 1.0, 3.0):
+        lengths = [abs(line.end - line.start) for line in hatching([loop], spacing)]
+        assert min(lengths) > spacing / 3
+        assert spacing * sum(lengths) == pytest.approx(450 * np.tan(np.radians(10)), abs=2 * spacing**2)

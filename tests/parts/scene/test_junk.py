@@ -5,7 +5,9 @@ from __future__ import annotations
 import contextlib
 import datetime
 import json
+from html import escape
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 from hypothesis import example, given, settings
@@ -209,6 +211,21 @@ def test_what_rounding_leaves_of_nothing_is_nothing() -> None:
     assert json.dumps(told).count("-") == 3
     with pytest.raises(SceneError, match=r"b\.c\[2\] = inf"):
         plain_numbers({"b": {"c": [0.0, float("inf")]}}, "s", "")
+
+
+def test_words_that_xml_cannot_hold_are_refused() -> None:
+    """By a parser of XML, which pictures, 3MF and readers of SVG go through; letters and ends of lines are kept."""
+    for code in (*range(0x180), 0x44F, 0xFFFD, 0xFFFE, 0xFFFF, 0x1F600):
+        word = f"a{chr(code)}b"
+        try:
+            ElementTree.fromstring(f"<t>{escape(word)}</t>")
+        except ElementTree.ParseError:
+            with pytest.raises(SceneError, match=r"scene\.title = .*: has a character that no file can show"):
+                plain_numbers({"scene": {"title": word}}, "s", "")
+        else:
+            # what steers a terminal is refused too
+            if not 0x7F <= code <= 0x9F:
+                assert plain_numbers({"scene": {"title": word}}, "s", "") == {"scene": {"title": word}}
 
 
 def test_a_refusal_tells_what_rounding_left_out_as_it_was_written(capsys: pytest.CaptureFixture[str]) -> None:
