@@ -288,7 +288,7 @@ def _add_title_block(
         if export.purpose == "part":
             name, designation = drawn_names(part, language)
             more |= {"name": given.name or name, "designation": given.designation or designation}
-    scale = scale_text(expected.paper.scale, language)
+    scale = scale_text(expected.paper.scale, language) if expected.has_view else ""
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
     block = title_block_of(replace(given, **more), scale, *number)
     try:

@@ -45,7 +45,8 @@ class Meshing(Record):
 class Expected(Record):
     """All that a sheet must hold; ``curves`` are the exact ones of each layer in model mm, which ``paper`` places.
 
-    ``findings``: what a reader of the sheet should know.
+    ``has_view``: something is drawn to the scale of ``paper``, which the title block then tells; ``findings``: what a
+    reader of the sheet should know.
     """
 
     canvas: Canvas
@@ -54,4 +55,5 @@ class Expected(Record):
     curves: dict[str, list[Curve]] = field(default_factory=dict)
     meshing: Meshing | None = None
     measures: Measures | None = None
+    has_view: bool = True
     findings: tuple[Finding, ...] = ()

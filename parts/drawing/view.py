@@ -39,9 +39,13 @@ class View(Record):
 
     def shows(self, body: Body, name: str) -> bool:
         """Whether a circle of a body crosses the line of centres in the window."""
-        if body.centre is None:
-            return self.window.low <= body.radii[name] <= self.window.high
-        height = body.centre.imag + (1 if is_up(body, self.window) else -1) * body.radii[name]
+        return self.crosses(body, body.radii[name])
+
+    def crosses(self, body: Body, radius: float) -> bool:
+        """The same of a circle about its axis, or of a rack's line at this height, mm."""
+        height = radius
+        if body.centre is not None:
+            height = body.centre.imag + (1 if is_up(body, self.window) else -1) * radius
         return self.window.low <= height <= self.window.high
 
     def holds(self, point: complex) -> bool:

@@ -121,7 +121,8 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     # what students draw cannot be measured yet
     return [
         Expected(one.canvas, paper, tuple(one.circles), one.curves,
-                 measures=None if asked.by_hand else _measures(one, joint, lift))
+                 measures=None if asked.by_hand else _measures(one, joint, lift),
+                 has_view=one is layout.profile.page)
         for one in pages
     ]  # fmt: skip
 

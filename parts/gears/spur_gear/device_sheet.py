@@ -99,7 +99,8 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     corner = complex(pages[-1].frame.right - table.size[0], pages[-1].content.low)
     table.draw(pages[-1], corner + 1j * max(0.0, pages[-1].content.high - _TITLE - table.size[1] - corner.imag) * alone)
     _label(canvas, paper, room, gears, names, asked)
-    return [Expected(canvas, paper, tuple(circles), curves), *(Expected(page, paper, ()) for page in pages[1:])]
+    beside = [Expected(page, paper, (), has_view=False) for page in pages[1:]]
+    return [Expected(canvas, paper, tuple(circles), curves), *beside]
 
 
 def _check(gears: list[SpurGear]) -> None:

@@ -241,8 +241,11 @@ def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str
     (first, second), inside, to = picture.bodies, _INSIDE / view.paper.scale, view.paper.point
 
     def within(body: Body) -> float:
-        inner = body.radii["base" if view.shows(body, "base") else "root"]
-        return min(body.radii["root"], inner) - inside
+        root = body.radii["root"]
+        base = body.radii["base"] if view.shows(body, "base") else root
+        radius = min(root, base) - inside
+        # where the axis is broken right behind the base circle, before it
+        return radius if view.crosses(body, radius) else (root + base) / 2
 
     found, mark, beyond = {}, picture.pitch, second.radii["root"] + inside
     if (radius := within(first)) > 0:
@@ -301,8 +304,8 @@ def _names(
     phase = cmath.phase(picture.direction)
     middle = to(pole) + cmath.rect(_angle_radius(picture, view), (math.pi + phase) / 2)
     labels.name("α_{w}", middle, prefer=-1 + 0j)
-    labels.name("T", to(complex(window.left, pole.imag)), prefer=1 + 1j)
-    labels.name("T", to(complex(window.right, pole.imag)), prefer=-1 + 1j)
+    labels.name("T", to(complex(window.left, pole.imag)), prefer=-1 + 0j)
+    labels.name("T", to(complex(window.right, pole.imag)), prefer=1 + 0j)
     if "arc" in dimensions:
         length = decimal(f"{abs(arc.sweep) * arc.radius:.3f}", language)
         labels.name(f"dd' = {length}", dimensions["arc"], prefer=-1j)

@@ -133,14 +133,14 @@ def test_no_word_stands_over_a_word_or_a_line(tmp_path: Path, name: str, languag
 
 
 def test_a_word_that_is_moved_onto_a_line_is_seen(tmp_path: Path) -> None:
-    """The negative control: a name on its circle's end, and one on the other."""
+    """The negative control: a name on the line that it stands beside, and one on the other."""
     (job,) = sheets_of("practicum_pair", "en")
     file = tmp_path / job.path
     job.write({}, file)
     assert faults(file) == []
     text = file.read_text(encoding="utf-8")
     x, y = re.findall(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>T</text>', text)[0]
-    file.write_text(re.sub(rf'y="{y}"([^>]*>T<)', rf'y="{float(y) + 2.5}"\1', text), encoding="utf-8")
+    file.write_text(re.sub(rf'x="{x}"([^>]*>T<)', rf'x="{float(x) + 6}"\1', text), encoding="utf-8")
     assert any("over TANGENT" in fault for fault in faults(file))
     moved = re.sub(r'<text x="[\d.]+" y="[\d.]+"([^>]*>P<)', rf'<text x="{x}" y="{y}"\1', text)
     file.write_text(moved, encoding="utf-8")

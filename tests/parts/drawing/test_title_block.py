@@ -12,7 +12,7 @@ import pytest
 
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
-from parts.drawing.canvas import Canvas
+from parts.drawing.canvas import Box, Canvas, scale_text
 from parts.drawing.cells import wrapped
 from parts.drawing.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
 from parts.scene.files import built_in_scenes
@@ -137,6 +137,23 @@ def test_cam_sheets_leave_room_for_it() -> None:
     left, top = titled.frame.right - TITLE_BLOCK[0], titled.frame.low + TITLE_BLOCK[1]
     assert len(titled.texts) > len(plain.texts)
     assert not [t for t in plain.texts if t.box.right > left and t.box.low < top]
+
+
+def test_the_block_of_a_page_without_a_view_has_no_scale() -> None:
+    cam = {"kind": "cam", "follower": "roller", "lift": 20.0, "follower_radius": 6.0, "base_circle_radius": 40.0,
+           "phases": [{"move": m, "angle_deg": 180.0, "law": "cosine"} for m in ("rise", "return_")]}  # fmt: skip
+    export = {"format": "sheet", "purpose": "cam", "paper": "A4", "title_block": True, **ROUGH}
+    made = plan_build(scene_from_dict({"parts": {"disk": cam}, "exports": [export]}, "t", "t"), "t", [], []).sheets
+    blocks = []
+    # each as DXF and as SVG
+    for job in made[::2]:
+        frame = job.canvas.frame
+        block = Box(frame.right - TITLE_BLOCK[0], frame.low, frame.right, frame.low + TITLE_BLOCK[1])
+        blocks.append([t.text for t in job.canvas.texts if t.box.within(block) and ":" in t.text])
+    # diagrams, constructions, tables
+    assert blocks[:2] == [[], [scale_text(made[2].expected.paper.scale, "en")]]
+    assert len(blocks) > 2
+    assert not any(blocks[2:])
 
 
 def test_the_block_of_one_part_tells_its_material_and_mass() -> None:

@@ -187,6 +187,27 @@ def test_words_stand_beside_what_they_name(made_of: tuple[tuple[int, int], str])
                 assert f"{radius:.3f}" in texts
 
 
+def test_no_dimension_lies_where_a_line_of_centres_is_broken() -> None:
+    """Of many teeth the base circle is far below the root: an arc within it lay on the zigzag."""
+    wheel = {"module": 3.0, "face_width": 10.0}
+    raw: dict[str, Any] = {
+        "parts": {"p": wheel | {"kind": "spur_gear", "number_of_teeth": 96},
+                  "r": wheel | {"kind": "ring_gear", "number_of_teeth": 144, "outer_diameter": 470.0}},
+        "mates": [{"kind": "internal_gear_pair", "first": "r", "second": "p"}],
+        "exports": [{"format": "sheet", "tolerance": 1e-3}],
+    }  # fmt: skip
+    canvas = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0].canvas
+    drawn = {layer: [s.curve for s in canvas.strokes if s.layer == layer] for layer in ("DIMENSION", "ARC_OF_ACTION")}
+    (action,) = (c for c in drawn["ARC_OF_ACTION"] if isinstance(c, Arc))
+    (arc,) = (c for c in drawn["DIMENSION"] if isinstance(c, Arc) and abs(c.centre - action.centre) < 1e-6)
+    middle = complex(arc.point(arc.sweep / 2))
+    # a zigzag's own lines are the slanted ones about the line of centres
+    bent = [c for c in drawn["DIMENSION"] if isinstance(c, Line) and 1 < abs(c.end.imag - c.start.imag) < 3
+            and abs((c.start + c.end).real / 2 - action.centre.real) < 1.1]  # fmt: skip
+    assert len(bent) == 2
+    assert min(min(abs(p - middle) for p in (c.start, c.end)) for c in bent) > 5
+
+
 def test_dimensions_of_the_arcs_run_inside_their_gears_with_arrows_at_both_ends() -> None:
     """Each end has its line from the arc; both sides of an arrow stand at 12 degrees, 3 mm long."""
     made = pair(*SMALL)
