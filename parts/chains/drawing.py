@@ -12,7 +12,7 @@ from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.wheel_views import Groove
 from parts.drawing.working import PartDrawing, Size, Subject
-from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, rows_of
+from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, grade_rows, rows_of, with_limits
 from parts.pages.inputs import SceneKeys, given
 
 _GAP = ("seating_radius", "seating_angle_deg", "chain_flank_radius", "gap_radius", "joining_radius", "head_radius",
@@ -58,10 +58,12 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     form = DataRow(N_("profile of the teeth by"), "", standard_told(part.thing.form.standard))
     beside = distance_rows(mates, "a")
     others = [DataRow(N_("teeth of the other sprocket"), "z", mate.part.thing.number_of_teeth) for mate in mates]
+    # seats that are deeper by a limit make both of what is measured less by it
+    measured = [row for one in rows_of(page, _MEASURED) for row in with_limits([one], keys.accuracy)]
     return DataTable(
         (
-            (teeth, *chain, form, *rows_of(page, _GAP)),
-            rows_of(page, _MEASURED),
+            (teeth, *chain, form, *rows_of(page, _GAP), *grade_rows(keys.accuracy)),
+            tuple(measured),
             (*rows_of(page, _CIRCLES), *beside, *others),
         )
     )

@@ -11,6 +11,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report, diameters
+from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import MOST_LENGTH, either, mm, start
 from parts.keys.holes import holes_of
 from parts.keys.pins import MARGIN, check_holes, most_of
@@ -62,6 +63,7 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
     tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
     tooth_bevel: Annotated[float, _TOOTH_BEVEL] = 0.0
     face_width: Annotated[float, _FACE_WIDTH] = 0.0
+    accuracy: AccuracyKey = None
 
 
 class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):

@@ -39,11 +39,16 @@ def disk_drawing(
         for name in circles
     )
     radii, root = subject.part.circles, None
-    tip = reach(outline, math.pi / 2), reach(outline, -math.pi / 2)
-    if PITCH in (one.name for one in rounds):
+    tip, has_teeth = (reach(outline, math.pi / 2), reach(outline, -math.pi / 2)), PITCH in (one.name for one in rounds)
+    if has_teeth:
         # teeth are not cut (GOST 2.402)
         tip, root = (radii[circles[0]] / 2,) * 2, radii["root_diameter"] / 2
     if rim is not None:
         tip = rim, rim
     wheel = replace(bare, tip=tip, root=root, rounds=rounds, stands=False, grooves=grooves, bevel=bevel)
-    return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero, teeth)))
+    views = wheel_views(wheel, subject)
+    if has_teeth:
+        # the table tells the other circles (GOST 2.408)
+        sized = [one for one in views[1].rounds if one not in rounds[1:]]
+        views = views[0], replace(views[1], rounds=tuple(sized)), *views[2:]
+    return PartDrawing(views, requirements(subject, *directions(holes, subject, zero, teeth)))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from geometry.base.record import replace
 from parts.base.part import Part
-from parts.base.texts import N_, Message, Text, in_context, message, standard_told
+from parts.base.texts import N_, Message, Text, in_context, standard_told
 from parts.gears.noncircular_gear import page as noncircular_page
 from parts.gears.noncircular_gear.part import NoncircularGearSpec
 from parts.gears.rack import page as rack_page
@@ -20,7 +20,7 @@ from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WormWheelSpec
 from parts.keys.accuracy import AccuracyTable
 from parts.keys.helix import ToothedKeys, helix_of
-from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, rows_of
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, grade_rows, rows_of, with_limits
 from parts.pages.inputs import SceneKeys, given
 from parts.pages.page import Sheet
 
@@ -162,14 +162,6 @@ def hand_row(hand: str) -> DataRow:
     return DataRow(N_("direction of the tooth line"), "", _HANDS[hand])
 
 
-def grade_rows(accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
-    """The accuracy grade, where one is given."""
-    if accuracy is None:
-        return ()
-    told = message("{grade} {standard}", grade=accuracy.grade, standard=standard_told(accuracy.source))
-    return (DataRow(N_("accuracy grade"), "", told),)
-
-
 def _control(page: Sheet, accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
     """What is measured on the teeth: the first of the ways that the calculation has and the face is wide enough for."""
     steps = {step.name: step.value for step in page.steps()}
@@ -179,12 +171,6 @@ def _control(page: Sheet, accuracy: AccuracyTable | None) -> tuple[DataRow, ...]
         if len(rows) == len(names) and (wide or names[-1] not in _SPANS):
             return with_limits(rows, accuracy)
     return ()
-
-
-def with_limits(rows: Sequence[DataRow], accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
-    """What is measured, the last of it with its deviations where they are given."""
-    limits = None if accuracy is None else accuracy.deviations
-    return (*rows[:-1], replace(rows[-1], deviations=limits and (max(limits), min(limits))))
 
 
 def _at_distances(mates: Sequence[Mated], distance: DataRow) -> list[DataRow]:

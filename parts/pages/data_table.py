@@ -12,9 +12,10 @@ from itertools import pairwise
 
 from geometry.base.record import Record, replace
 from parts.base.part import Part
-from parts.base.texts import N_, Text, Words, in_context, words
+from parts.base.texts import N_, Text, Words, in_context, message, standard_told, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
+from parts.keys.accuracy import AccuracyTable
 from parts.pages.page import Sheet, Step, Table, shortest, unit_text
 from parts.pages.symbols import head_text, lowered, symbol_text
 from parts.pages.terms import TERMS
@@ -36,6 +37,8 @@ _NAMES: Mapping[str, Text] = {
     "tip_radius_coefficient": in_context("data table", "fillet radius of the basic rack, in modules"),
     "rack_pitch": in_context("data table", "pitch"),
 }
+# the same of symbols, where drawings have no others that are like them
+_SYMBOLS = {"thread_chord": "s_a1", "thread_chord_height": "h_a1", "constant_chord": "s_c"}
 Value = float | int | Text
 
 
@@ -69,7 +72,8 @@ class DataTable(Record):
 def row_of(step: Step) -> DataRow:
     """A step of a calculation as a row."""
     row = term_row(step.name, step.value)
-    return replace(row, name=step.called or row.name, symbol=step.symbol, unit=step.unit)
+    symbol = _SYMBOLS.get(step.name, step.symbol)
+    return replace(row, name=step.called or row.name, symbol=symbol, unit=step.unit)
 
 
 def term_row(name: str, value: Value) -> DataRow:
@@ -88,6 +92,20 @@ def distance_rows(mates: Iterable[Mated], symbol: str) -> list[DataRow]:
     """How far the axes of mates are, each distance once."""
     distances = {round(mate.distance, 9): mate.distance for mate in mates if mate.distance is not None}
     return [DataRow(N_("centre distance"), symbol, distance, "mm") for distance in distances.values()]
+
+
+def grade_rows(accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
+    """The accuracy grade, where one is given."""
+    if accuracy is None:
+        return ()
+    told = message("{grade} {standard}", grade=accuracy.grade, standard=standard_told(accuracy.source))
+    return (DataRow(N_("accuracy grade"), "", told),)
+
+
+def with_limits(rows: Sequence[DataRow], accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
+    """What is measured, the last of it with its deviations where they are given."""
+    limits = None if accuracy is None else accuracy.deviations
+    return (*rows[:-1], replace(rows[-1], deviations=limits and (max(limits), min(limits))))
 
 
 def own_rows(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:

@@ -40,9 +40,9 @@ from parts.drawing.working import (
 )
 from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
-from parts.gears.data_tables import grade_rows, hand_row, mate_rows, with_limits
+from parts.gears.data_tables import hand_row, mate_rows
 from parts.keys.holes import holes_of
-from parts.pages.data_table import DataRow, DataTable, Mated, own_rows, sexagesimal
+from parts.pages.data_table import DataRow, DataTable, Mated, grade_rows, own_rows, sexagesimal, with_limits
 from parts.pages.inputs import SceneKeys, given
 
 # the basic rack of GOST 13754-81, which the table then tells by its name: of modules from 1 mm on

@@ -169,7 +169,7 @@ SIZES: dict[str, list[float]] = {
     # R - r + e and R - r - e; holes of pin + 2 e
     "disc": [8, 20, 56, 12, 96, 84],
     # m z, and a module and a quarter more
-    "clock": [5, 8, 60, 64, 55],
+    "clock": [5, 8, 64],
     # a slot's walls begin where the pin enters, at a cos(pi / n); it ends beyond pin and gap at a -+ r
     "geneva": [
         10,
@@ -188,12 +188,10 @@ SIZES: dict[str, list[float]] = {
         42.5,
         1,
     ],
-    # ISO 606: d and d - d1, d + p (1.125 - 0.8/z) - d1, b_f = 0.91 b1, p_t, p cot(180 deg / z) - 1.04 h2 - 0.76
+    # ISO 606: d + p (1.125 - 0.8/z) - d1, b_f = 0.91 b1, p_t, p cot(180 deg / z) - 1.04 h2 - 0.76
     "sprocket": [
         14,
         30,
-        12.7 / math.sin(math.pi / 12),
-        12.7 / math.sin(math.pi / 12) - 8.51,
         12.7 / math.sin(math.pi / 12) + 12.7 * (1.125 - 0.8 / 12) - 8.51,
         0.91 * 7.75,
         13.92,
@@ -201,8 +199,8 @@ SIZES: dict[str, list[float]] = {
         21.92 + 0.91 * 7.75,
         12.7 / math.tan(math.pi / 12) - 1.04 * 11.81 - 0.76,
     ],
-    # p z / pi, 0.83 less, 2.5 more deep; teeth of 10 between flanges of 1.5, hub and bore
-    "pulley": [8, 20, 90 / math.pi, 90 / math.pi - 0.83, 90 / math.pi - 3.33, 10, 13, 19, 34],
+    # p z / pi less 0.83; teeth of 10 between flanges of 1.5, hub and bore
+    "pulley": [8, 20, 90 / math.pi - 0.83, 10, 13, 19, 34],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
     "pin": [8, 60],
     "eccentric": [10, 10, 4, 32],

@@ -51,6 +51,8 @@ CALLED = {
     "fillet radius of the basic rack, in modules": "rounding of the rack's tip, in modules",
     "pitch": "pitch of the rack",
 }
+# and by other symbols, those of GOST 2.403 and 2.406
+SYMBOLS = {"s_a1": "s_c1", "h_a1": "h_c1", "s_c": "S_c"}
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
 BESIDE = {"number of teeth of the face gear", "teeth of the mate", "drawing of the mate", "centre distance",
           "teeth of the other sprocket", "teeth of the other pulley",
@@ -144,7 +146,7 @@ def test_every_cell_is_what_the_calculation_prints(address: str) -> None:
         for row in (row for rows in table.parts for row in rows):
             name = words("en").say(row.name)
             name = name.partition(": ")[0] if isinstance(row.name, Message) else name
-            found = CALLED.get(name, name), symbol_text(row.symbol, words("en"))
+            found = CALLED.get(name, name), symbol_text(SYMBOLS.get(row.symbol, row.symbol), words("en"))
             if found not in steps:
                 assert isinstance(row.value, str | Message) or name in BESIDE, name
                 continue
@@ -193,6 +195,25 @@ kind = "external_gear_pair"
 first = "pinion"
 second = "wheel"
 """
+
+
+SPROCKET = """
+[parts.p]
+kind = "sprocket"
+chain = "08B-1"
+number_of_teeth = 21
+tooth_form = "GOST 591"
+accuracy = { grade = "B", source = "GOST 591-69", deviations = [-0.25, 0.0] }
+"""
+
+
+def test_a_sprocket_tells_its_grade_and_the_limits_of_what_is_measured() -> None:
+    """GOST 2.408; a seat that is deeper by 0.125 mm makes both sizes less by 0.25 mm."""
+    ((_, table, _),) = tables("sprocket", SPROCKET).values()
+    rows = {words("en").say(row.name): row for part in table.parts for row in part}
+    assert value_text(rows["accuracy grade"], words("en")) == "B GOST 591-69"
+    limits = {row.symbol: row.deviations for row in rows.values() if row.deviations}
+    assert limits == {"M_R": (0.0, -0.25), "L_x": (0.0, -0.25)}
 
 
 @pytest.mark.parametrize(
