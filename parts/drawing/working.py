@@ -226,5 +226,7 @@ def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
 
 
 def requirements(subject: Subject, *more: str) -> tuple[str, ...]:
-    """What holds for all sizes, ``more`` that no size tells, and what the export adds."""
-    return (subject.words("unspecified_limits"), *more, *subject.wishes.requirements)
+    """What the export says of material and treatment, which stand first (GOST 2.316), then what holds for all sizes,
+    and ``more`` that no size tells.
+    """
+    return (*subject.wishes.requirements, subject.words("unspecified_limits"), *more)

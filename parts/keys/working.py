@@ -40,7 +40,7 @@ def _rough(meaning: str) -> Meta:
 
 
 _Requirement = Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]
-_REQUIREMENTS = Meta(max_length=12, description="technical requirements, a line each, added to those of the drawing")
+_REQUIREMENTS = Meta(max_length=12, description="technical requirements, a line each, before those of the drawing")
 
 
 class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):

@@ -574,6 +574,8 @@ def test_a_requirement_that_stands_alone_has_no_number(tmp_path: Path) -> None:
         job.write({}, tmp_path / job.path)
         numbered = {text[:2] for text in words(tmp_path / job.path) if text[:2] in ("1.", "2.")}
         assert numbered == ({"1.", "2."} if more else set())
+        # GOST 2.316: what is asked of the material stands first
+        assert ("1. HRC 40" in words(tmp_path / job.path)) is bool(more)
 
 
 def test_two_per_cent_signs_begin_no_sign_of_another_program(tmp_path: Path) -> None:
