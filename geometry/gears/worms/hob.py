@@ -228,23 +228,25 @@ class Hob(Record, dict=True):
         screw, sunk = self.worm.sign * self.worm.parameter, self.centre_distance * sine * sine
         r, rise, lift = meridian.radius, screw * meridian.outwards, meridian.upwards * meridian.radius
         wanted, along, across = y * cosine, sine * r * meridian.outwards, 1 / self.rate + self.centre_distance * cosine
-        terms = (
-            rise * r * cosine**2,
-            lift * r * cosine**2,
-            lift * wanted - cosine * r * along - sunk * rise,
-            -rise * wanted - sunk * lift,
-            rise * r * sine**2 + along * across,
-        )
-        p, q, c, s, k = (np.broadcast_to(x, turn.shape).ravel() for x in terms)
+        terms = np.empty((5, *turn.shape))
+        terms[0] = rise * r * cosine**2
+        terms[1] = lift * r * cosine**2
+        terms[2] = lift * wanted - cosine * r * along - sunk * rise
+        terms[3] = -rise * wanted - sunk * lift
+        terms[4] = rise * r * sine**2 + along * across
+        p, q, c, s, k = terms = terms.reshape(5, -1)
         found, at = turn.ravel(), np.arange(turn.size)
         for number in range(_STEPS):
-            out, side = np.cos(found[at]), np.sin(found[at])
+            here = found[at]
+            out, side = np.cos(here), np.sin(here)
             less, more, wave = q * out - p * side, q * side + p * out, c * out + s * side
-            left, slope = wave - side * less + k, side * (more - c) - out * (less - s)
-            step = 2 * left * slope / (2 * slope * slope - left * (2 * (side * less + out * more) - wave))
-            found[at] -= step
+            fall = side * less
+            left, slope = wave - fall + k, side * (more - c) - out * (less - s)
+            step = 2 * left * slope / (2 * slope * slope - left * (2 * (fall + out * more) - wave))
+            here -= step
+            found[at] = here
             size = np.abs(step)
-            goes = (size > _LEAST_STEP) & (np.abs(found[at]) < math.pi)
+            goes = (size > _LEAST_STEP) & (np.abs(here) < math.pi)
             if number >= _CALM:
                 # nothing is near
                 goes &= size < _NEAR
@@ -252,7 +254,7 @@ class Hob(Record, dict=True):
                 break
             if not goes.all():
                 at = at[goes]
-                p, q, c, s, k = (x[goes] for x in (p, q, c, s, k))
+                p, q, c, s, k = terms = terms[:, goes]
         return found.reshape(turn.shape)
 
 

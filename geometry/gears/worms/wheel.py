@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -438,7 +438,8 @@ class WormTeeth(Record, dict=True):
 
         # from the root outwards the fillet's distance grows, up to its own turning back
         normals = hob.least_normal + (math.pi / 2 - hob.least_normal) * np.linspace(1.0, 0.0, _ANGLES) ** 3
-        reach = np.abs(fillet(normals[:, None]))
+        curves = fillet(normals[:, None])
+        reach, angles = np.abs(curves), np.angle(curves)
         falls = np.diff(reach, axis=0) < 0
         top = np.where(falls.any(axis=0), falls.argmax(axis=0), _ANGLES - 1)
 
@@ -447,15 +448,16 @@ class WormTeeth(Record, dict=True):
 
         # about where both are at one angle at one distance, column by column; then Newton's steps, slopes by difference
         radii = low + (high - low) * np.linspace(0.0, 1.0, _CROSSINGS)[:, None] ** 3
-        lines, curves = flank(radii), fillet(normals[:, None])
+        lines = flank(radii)
+        run, turned = np.abs(lines), np.angle(lines)
         radius, normal = hob.form_radius + _CROSSED * (low - hob.form_radius), np.empty(len(heights))
         shallow, sizes = hob.form_radius - low < _SHALLOW * hob.tip_radius, np.abs(flank(radius))
         for k, last in enumerate((top + 1).tolist()):
             if shallow[k]:
                 normal[k] = np.interp(sizes[k], reach[:last, k], normals[:last])
                 continue
-            own = np.interp(np.abs(lines[:, k]), reach[:last, k], np.angle(curves[:last, k]), right=np.nan)
-            ahead = np.angle(lines[:, k]) - own
+            own = np.interp(run[:, k], reach[:last, k], angles[:last, k], right=np.nan)
+            ahead = turned[:, k] - own
             change = np.flatnonzero(ahead[1:] * ahead[:-1] <= 0)
             if not change.size or low[k] - high[k] < _THIN * hob.tip_radius:
                 radius[k] = normal[k] = np.nan
@@ -463,7 +465,7 @@ class WormTeeth(Record, dict=True):
             at = int(change[0])
             share = ahead[at] / (ahead[at] - ahead[at + 1]) if ahead[at] != ahead[at + 1] else 0.0
             radius[k] = radii[at, k] + share * (radii[at + 1, k] - radii[at, k])
-            size = np.abs(lines[at, k]) + share * (np.abs(lines[at + 1, k]) - np.abs(lines[at, k]))
+            size = run[at, k] + share * (run[at + 1, k] - run[at, k])
             normal[k] = np.interp(size, reach[:last, k], normals[:last])
         crosses = ~np.isnan(radius)
         # the shallowest meet as they are: a step of theirs would be rounding
@@ -530,17 +532,17 @@ class WormTeeth(Record, dict=True):
     @property
     def glanced(self) -> WormTeeth:
         """The same for a search, which looks at few heights of many wheels."""
-        return replace(self, levels=_GLANCE, loose=True)
+        return _once(replace(self, levels=_GLANCE, loose=True))
 
     @property
     def tried(self) -> WormTeeth:
         """The same for a search that asks whether splines follow, of what is looked at in full before it is made."""
-        return replace(self, levels=_FEW_LEVELS, loose=True)
+        return _once(replace(self, levels=_FEW_LEVELS, loose=True))
 
     @property
     def sliver(self) -> WormTeeth:
         """The same of the least width, or of their own."""
-        return replace(self, width=min(self.width, _LEAST_WIDTH * self.hob.tip_radius))
+        return _once(replace(self, width=min(self.width, _LEAST_WIDTH * self.hob.tip_radius)))
 
     def narrowed(self) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has."""
@@ -554,7 +556,7 @@ class WormTeeth(Record, dict=True):
         width, least = self.width, self.sliver.width
 
         def does(look: Callable[[WormTeeth], bool], width: float) -> bool:
-            return look(replace(self, width=width))
+            return look(_once(replace(self, width=width)))
 
         for look in looks:
             if not does(look, width):
@@ -563,7 +565,7 @@ class WormTeeth(Record, dict=True):
                 if found is None or not isinstance(found.value, float):
                     return None
                 width = found.value
-        return replace(self, width=width)
+        return _once(replace(self, width=width))
 
     @cached_property
     def ended(self) -> str | None:
@@ -593,9 +595,13 @@ class WormTeeth(Record, dict=True):
 
     def is_whole(self) -> bool:
         """Whether every tooth has a tip and a flank at every height, the flank not of next to nothing."""
-        if self.lessened is not None:
+        try:
+            side = self._plain_levels
+        except NoTooth:
             return False
-        side = self._plain_levels
+        # what is known already first
+        if side.all_fillet.any() or self.lessened is not None:
+            return False
         flank = np.abs(self.flank(side, 1.0).plane - self.fillet(side, 1.0).plane)
         return bool(flank.min() > _LEAST_DEPTH * self.hob.worm.module)
 
@@ -725,6 +731,13 @@ class WormTeeth(Record, dict=True):
             k = np.where(same.all(axis=0), len(_PARTS) - 1, np.maximum(same.argmin(axis=0), 1))
             low, high = places[k - 1, column], places[k, column]
         return tuple(((low + high) / 2).tolist())
+
+
+# searches ask for the same teeth again and again
+@lru_cache(maxsize=64)
+def _once(teeth: WormTeeth) -> WormTeeth:
+    """Such teeth with all that has been found of them."""
+    return teeth
 
 
 def chords_near(points: Complex, near: float) -> Complex:

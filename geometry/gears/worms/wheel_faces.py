@@ -152,6 +152,7 @@ def _broken(teeth: WormTeeth, *, outermost: bool = False) -> float:
     try:
         bands = sorted(pairwise(teeth.breaks), key=lambda band: abs(sum(band)))
         bands = bands[-2:] if outermost else bands
+        teeth.seek(np.array([sum(band) / 2]) for band in bands)
         left = [(part, band) for band in bands for part in ((FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,))]
     except (GeometryError, NoTooth):
         return teeth.width / 2
