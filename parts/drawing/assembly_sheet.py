@@ -406,6 +406,8 @@ def _swept(
                     fits = (one for one in fits if _slope(elbow, (number, (one.spot,))) >= most)
                 others = (*placed, *chosen) if k < _TRIES else ()
                 fits = (one for one in fits if not any(_cross(one, other) for other in others))
+                if k < _TRIES:
+                    fits = (one for one in fits if not ink.follows(one.lines()[0]))
                 free = next((one for one in fits if ink.holds(one.lines(), one.words.box)), None)
             y -= _STEP if free else _STEP / 2
             if free:

@@ -23,6 +23,8 @@ _SAMPLES = 33
 # over such a length: GOST 2.307 forbids the first where it can be avoided, leaders never cross each other
 _CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.3, 1.5, 6.0, 18.0], [1.5, 1.5, 18.0, 20.0]])
 _LYING, _BESIDE, _ALONG = np.array([0.0, 0.0, 10.0, 10.0]), 1.0, 0.5
+# so far, mm, a leader goes beside another line at most
+_FOLLOWED = 8.0
 # what ends within another line does not cross it, mm, but leaders keep off the ends of dimension lines and of leaders;
 # sine of directions that are one
 _TOUCH, _PARALLEL = 0.3, 1e-4
@@ -78,6 +80,13 @@ class Ink(Draft):
         near = (np.abs(start.imag - line.start.imag) < _BESIDE) & (np.abs(end.imag - start.imag) < _TOUCH)
         return bool((near & (shared > _ALONG)).any())
 
+    def follows(self, line: Line) -> bool:
+        """Whether a line goes so far so near to another that both seem one, or parallel to hatching (GOST 2.316)."""
+        way = line.end - line.start
+        own = (self.lines - line.start) * (way.conjugate() / abs(way))
+        within = _shares(np.array([[0.0, -_BESIDE, abs(way), _BESIDE]]), own)[0]
+        return bool((within * np.abs(own[1] - own[0]) > _FOLLOWED).any())
+
     def beside(self, at: complex) -> bool:
         """Whether a straight line passes a point so near that it seems to touch it."""
         start, end, _ = self.straight
@@ -130,7 +139,12 @@ class Ink(Draft):
 
 
 def _held(boxes: Real, lines: Complex) -> np.ndarray:
-    """Which of boxes, (m, 4), holds a piece of which line; ends of lines: (2, n) (Liang and Barsky)."""
+    """Which of boxes holds a piece of which line."""
+    return _shares(boxes, lines) > 0.0
+
+
+def _shares(boxes: Real, lines: Complex) -> Real:
+    """The part of each line in each of boxes, (m, 4), below 0 of none; ends of lines: (2, n) (Liang and Barsky)."""
     start, way = lines[0], lines[1] - lines[0]
     # across and upwards at once, (2, m, n)
     at, step = (np.array([x.real, x.imag])[:, None] for x in (start, way))
@@ -141,7 +155,7 @@ def _held(boxes: Real, lines: Complex) -> np.ndarray:
     inside = (at > least) & (at < most)
     first = np.where(flat, np.where(inside, 0.0, 2.0), np.minimum(one, two)).max(axis=0)
     last = np.where(flat, 1.0, np.maximum(one, two)).min(axis=0)
-    return np.minimum(last, 1.0) > np.maximum(first, 0.0)
+    return np.asarray(np.minimum(last, 1.0) - np.maximum(first, 0.0))
 
 
 def _costs(lines: Complex, others: Complex) -> Real:

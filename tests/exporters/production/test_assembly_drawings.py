@@ -11,6 +11,7 @@ from typing import Any
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 
 from exporters.production import assembly_drawings
 from exporters.production.plan import plan_build
@@ -215,6 +216,20 @@ def test_no_leader_is_chosen_by_last_bits(monkeypatch: pytest.MonkeyPatch) -> No
         found.append(np.array([end for line in leaders(job) for end in (line.start, line.end)]))
     for other in found[1:]:
         assert other == pytest.approx(found[0], abs=1e-6)
+
+
+def test_no_leader_goes_along_an_axis_or_the_mark_of_a_section() -> None:
+    """GOST 2.316; the most room in a worm wheel is on its axis, level with the shelf: both lay on one another."""
+    raw = scene("worm_set_print", exports=[{"format": "svg", "purpose": "assembly"}])
+    (job,) = plan_build(scene_from_dict(raw, "s", "s"), "s", [], []).sheets
+    assert isinstance(job, SheetJob)
+    others = (stroke.curve for stroke in job.canvas.strokes if stroke.layer in ("CENTRE", "FRAME", "HATCH"))
+    ends = [[(p.real, p.imag) for p in (c.start, c.end)] for c in others if isinstance(c, Line)]
+    found = leaders(job)
+    for line in found:
+        beside = shapely.LineString([(p.real, p.imag) for p in (line.start, line.end)]).buffer(1.0, cap_style="flat")
+        assert all(shapely.LineString(both).intersection(beside).length < 9 for both in ends)
+    assert len(found) == 2
 
 
 def test_a_leader_comes_from_the_side_on_which_its_part_stands() -> None:
