@@ -49,13 +49,23 @@ def titled(canvas: Canvas, *titles: str) -> Piece:
 
 
 def laid(pieces: Sequence[Piece], paper: str) -> list[Canvas]:
-    """Lying sheets of a paper with all pieces, in their order; the lower right corners are kept for title blocks.
+    """Lying sheets of a paper with all pieces, in their order where as few then hold them as with the tallest or the
+    largest first; the lower right corners are kept for title blocks.
 
     Raises
     ------
     ParameterError
         ``paper``: it does not hold one of them, with the least that does.
     """
+    orders = pieces, *(sorted(pieces, key=by) for by in (lambda p: -p.room.tall, lambda p: -p.room.wide * p.room.tall))
+    pages = min((_packed(order, paper) for order in orders), key=len)
+    for page in pages:
+        _spread(page)
+    return [page.canvas for page in pages]
+
+
+def _packed(pieces: Sequence[Piece], paper: str) -> list[_Page]:
+    """Sheets with pieces in their order, each where there is room first."""
     pages: list[_Page] = []
     for piece in pieces:
         size = complex(piece.room.wide, piece.room.tall)
@@ -69,9 +79,7 @@ def laid(pieces: Sequence[Piece], paper: str) -> list[Canvas]:
         taken = Box(corner.real, corner.imag - size.imag - _GAP, corner.real + size.real + _GAP, corner.imag)
         page.free[:] = _left(page.free, taken)
         page.laid.append((piece, corner))
-    for page in pages:
-        _spread(page)
-    return [page.canvas for page in pages]
+    return pages
 
 
 class _Page(Record, eq=False):

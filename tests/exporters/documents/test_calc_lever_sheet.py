@@ -173,6 +173,14 @@ def test_every_assignment_has_its_sheet(assignment: int, tmp_path: Path) -> None
     assert f"{read.scale('l'):e}"[:3] in {"1.0", "2.0", "2.5", "4.0", "5.0"}
 
 
+def test_drawings_that_one_sheet_holds_in_another_order_stand_on_one(tmp_path: Path) -> None:
+    """In the order of the guidelines Zhukovsky's lever stood on a sheet of its own, with half of the first one free."""
+    read = drawn(tmp_path, "assignment=1", "variant=3", *LOADS)
+    assert [file.name for file in tmp_path.iterdir()] == ["lever.dxf"]
+    texts = {text for text, _ in read.words}
+    assert {"Output over a turn", "Zhukovsky's lever", "Plan of velocities", "Plan of accelerations"} <= texts
+
+
 def refused(*keys: str) -> SceneError:
     with pytest.raises(SceneError) as caught:
         calculate("lever", keys, "text", "en")
