@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
 
@@ -23,6 +24,11 @@ _MOST_DIGITS = 12
 _MARGIN = 2.0
 # what pictures stand on
 GROUND = '<rect width="100%" height="100%" style="fill:#ffffff"/>'
+# of the letters of pictures; below a size some programs round their ways to nothing, so that they are written larger
+TEXT_STYLE = "font-family:sans-serif;fill:#202830"
+_LEAST_LETTER, _LARGER = 0.5, 100
+# what stands lower or higher in a sign, as in d_a and mm^3, how small it is, and how far it is moved
+_MOVED, _SMALLER, _LOW, _HIGH = re.compile(r"(?<=(?<!\w)[^\W\d_])_([^\W_]+)(?!\w)|\^(\d+)"), 0.7, 0.2, -0.35
 # arcs of more than 100 degrees
 _LONG_BULGE = float(np.tan(np.radians(25)))
 
@@ -128,6 +134,34 @@ def number(value: float, decimals: int = DRAWN_DECIMALS) -> str:
     text = f"{value:.{decimals}f}"
     text = text.rstrip("0").rstrip(".") if decimals else text
     return "0" if text == "-0" else text
+
+
+def text_line(text: str, x: float, y: float, size: float, style: str = "") -> str:
+    """A line of text in letters of a size, its signs with lowered letters; ``style`` ends in a semicolon."""
+    times, moved = (1, "") if size >= _LEAST_LETTER else (_LARGER, f' transform="scale({1 / _LARGER:g})"')
+    x, y, size = times * x, times * y, times * size
+    place, told = f'x="{x:.5g}" y="{y:.5g}"', "".join(_signs(text, size))
+    return f'<text {place}{moved} style="{style}font-size:{size:.4g}px;{TEXT_STYLE}">{told}</text>'
+
+
+def _signs(text: str, size: float) -> Iterator[str]:
+    """A text with what is lowered or raised in it moved there, the rest back on its line."""
+    at, back = 0, 0.0
+    for found in _MOVED.finditer(text):
+        way = size * (_HIGH if found[1] is None else _LOW)
+        before, small = text[at : found.start()], f'style="font-size:{_SMALLER:.0%}"'
+        yield from _moved(before, back)
+        yield f'<tspan dy="{way + (0.0 if before.strip() else back):.4g}" {small}>{found[1] or found[2]}</tspan>'
+        at, back = found.end(), -way
+    yield from _moved(text[at:], back)
+
+
+def _moved(text: str, way: float) -> Iterator[str]:
+    """A text with a shift; spaces at its start stand before what is shifted, within which some programs drop them."""
+    rest = text.lstrip()
+    yield text[: len(text) - len(rest)]
+    if rest:
+        yield f'<tspan dy="{way:.4g}">{escaped(rest)}</tspan>' if way else escaped(rest)
 
 
 def escaped(text: str) -> str:

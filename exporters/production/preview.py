@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from exporters.formats.svg import GROUND, escaped, fill, number, page_head, path_data, save, stroke_data
+from exporters.formats.svg import GROUND, fill, number, page_head, path_data, save, stroke_data, text_line
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
@@ -20,17 +20,23 @@ from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
-from parts.base.texts import words
+from parts.base.texts import Words, words
 from parts.drawing.names import caption_name
 from parts.scene.standing import UPWARDS, Instance
 from parts.texts.checks import in_rows
 from parts.texts.findings import finding_text
-from parts.texts.quantities import quantity_name
+from parts.texts.quantities import QUANTITIES, quantity_name
 
 # letters of a line of the caption that fit beside a part, and above a scene
 _CAPTION_LETTERS, _WIDE_LETTERS = 42, 95
 # of a scene's checks, half of that of what its picture covers: it is to remain a picture
 _MOST_LETTERS = 500
+# room about a part, of half of its longer side; width of a letter, of its size
+_ROOM, _LETTER = 0.08, 0.62
+# last word of what a number is called, with its unit; what has a unit; what is not broken in captions
+_NO_BREAK = "\u00a0"
+_LAST_WORD, _UNIT = re.compile(r"(?:\d )?\S+(?:, [^,]{1,12})?$"), re.compile(", (?:mm|deg|modules)")
+_EQUATION = re.compile(r" (?==)|(?<==) |(?<=\d) (?=[^\W\d_]{2,4}\b)")
 # of pins of one piece, which stand out of their plate
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
@@ -46,23 +52,28 @@ Outlines: TypeAlias = tuple[Approximation, ...]
 
 
 def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) -> Path:
-    """The filled part, its circles with their diameters, and what was noticed."""
+    """The filled part in the middle, its circles with their diameters, and what was noticed."""
     remarks = [finding_text(language, f) for f in part.findings]
-    reach = max(float(np.abs(b.geometry.vertices).max()) for b in boundaries)
-    middle = reach * 1.08
-    corner = complex(middle, middle)
-    text = reach / 22
-    named = part.circles | part.quantities
-    told = words(language)
-    rows = [f"{quantity_name(told, k)}  {v if isinstance(v, int) else format(v, '.4f')}" for k, v in named.items()]
-    caption = [
-        line for row in (caption_name(part), *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
-    ]
+    outer = boundaries[-1].geometry.sampled(PER_EDGE)
+    wheel = max(part.circles.values(), default=0.0) / 2
+    ends = np.concatenate([outer, wheel * np.array([1 + 1j, -1 - 1j])]) if wheel else outer
+    left, right = float(ends.real.min()), float(ends.real.max())
+    low, high = float(ends.imag.min()), float(ends.imag.max())
+    reach = max(right - left, high - low) / 2
+    room = _ROOM * reach
     # what is turned is known by its axial section, which lies below the view along its axis
     half = part.made_by.axial_section(part.thing, reach / 1000)
     across, length = (0.0, 0.0) if half is None else (2 * float(half.real.max()), float(np.ptp(half.imag)))
-    low = max(2 * middle, text * 1.7 * (len(caption) + 1))
-    lines = [page_head(2 * middle + max(text * 24, length - 2 * reach), low + across * 1.08), GROUND]
+    text = max(reach / 22, length / 70)
+    told = words(language)
+    rows = [caption_name(part), *(_number(told, *row) for row in (part.circles | part.quantities).items()), *remarks]
+    caption = [line for row in rows for line in wrap(_unbroken(told.decimal(row)), _CAPTION_LETTERS)]
+    beside = right - left + 2 * room
+    wide = max(beside + (2 + _LETTER * max(map(len, caption))) * text, length + 2 * room)
+    deep = max(high - low + 2 * room, text * 1.7 * (len(caption) + 1))
+    # alone it stands in the middle of the height of what is written beside it
+    corner = complex(room - left, room + high + (deep - high + low - 2 * room) / 2 * (half is None))
+    lines = [page_head(wide, deep + (across + room if across else 0.0)), GROUND]
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
     data = " ".join(path_data(b.geometry, corner) for b in reversed((*tags, *boundaries)))
@@ -76,18 +87,32 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     pins = " ".join(path_data(c, corner) for c in _solid_pins(part, boundaries))
     if pins:
         lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 400:.4g}"/>')
-    dash = f"{reach / 30:.4g} {reach / 120:.4g} {reach / 200:.4g} {reach / 120:.4g}"
+    dash = f"{reach / 25:.4g} {reach / 90:.4g} {reach / 150:.4g} {reach / 90:.4g}"
     for name, diameter in part.circles.items():
-        colour = _CIRCLE_COLOURS.get(name, "#808080")
-        line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
-        lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
-    lines += _cross(middle, reach)
+        colour = _CIRCLE_COLOURS.get(name, "#404850")
+        line = f"fill:none;stroke:{colour};stroke-width:{reach / 300:.4g};stroke-dasharray:{dash}"
+        place = f'cx="{number(corner.real)}" cy="{number(corner.imag)}"'
+        lines.append(f'<circle {place} r="{number(diameter / 2)}" style="{line}"/>')
+    lines += _cross(corner, complex(left, low), complex(right, high))
     if half is not None:
-        lines += _axial(half, complex(middle - reach, low + across / 2), shade, reach)
-    lines += _caption(caption, 2 * middle + text, text)
+        lines += _axial(half, complex(room, deep + across / 2), shade, reach)
+    lines += _caption(caption, beside + text / 2, text)
     file = folder / f"{part.id}.preview.svg"
     save(file, lines)
     return file
+
+
+def _number(told: Words, name: str, value: float) -> str:
+    """A circle or quantity in words, its sign, unit and value on one line; what is counted without decimals."""
+    row, counted = quantity_name(told, name), value == int(value) and not _UNIT.search(QUANTITIES.get(name, ""))
+    last = _LAST_WORD.search(row)
+    at = last.start() if last else 0
+    return row[:at] + f"{row[at:]}  {value:.{0 if counted or isinstance(value, int) else 4}f}".replace(" ", _NO_BREAK)
+
+
+def _unbroken(row: str) -> str:
+    """A row of a caption in which equations and values with their units stay on one line."""
+    return _EQUATION.sub(_NO_BREAK, row)
 
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
@@ -139,12 +164,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
     seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
     named = spread_labels(labels, Tops(loops, picture=seen))
-    style = "font-family:sans-serif;font-size:{:.4g}px;text-anchor:middle;fill:#202830"
     body += [_leader(one.line, one.size) for one in named if one and one.line]
-    body += [
-        f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style.format(one.size)}">{escaped(one.text)}</text>'
-        for one in named if one
-    ]  # fmt: skip
+    body += [text_line(one.text, one.x, one.y, one.size, "text-anchor:middle;") for one in named if one]
     written = {one.text for one in named if one}
     covered = [label.text for label in labels if label.text not in written]
     told = words(language)
@@ -157,7 +178,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             parts=count,
         )  # fmt: skip
         rows.append(row if len(row) <= _MOST_LETTERS // 2 else less)
-    rows = [line for row in rows for line in wrap(told.decimal(row), _WIDE_LETTERS)]
+    rows = [line for row in rows for line in wrap(_unbroken(told.decimal(row)), _WIDE_LETTERS)]
     caption = size * 1.7 * (len(rows) + 1)
     file = folder / scene_preview_name(plan)
     lines = [page_head(2 * middle, 2 * middle + caption - spare), GROUND]
@@ -292,19 +313,24 @@ def _axial(half: Complex, at: complex, shade: str, reach: float) -> list[str]:
     ]
 
 
-def _cross(middle: float, reach: float) -> list[str]:
-    """Centre lines."""
-    style = f'style="stroke:#c03020;stroke-width:{reach / 600:.4g}"'
-    ends = number(middle - reach * 1.05), number(middle + reach * 1.05), number(middle)
-    return [
-        f'<line x1="{ends[0]}" y1="{ends[2]}" x2="{ends[1]}" y2="{ends[2]}" {style}/>',
-        f'<line x1="{ends[2]}" y1="{ends[0]}" x2="{ends[2]}" y2="{ends[1]}" {style}/>',
-    ]
+def _cross(origin: complex, low: complex, high: complex) -> list[str]:
+    """Centre lines through the origin of a part with these corners, y upwards about it, where they run over it."""
+    reach = max(high.real - low.real, high.imag - low.imag) / 2
+    style, over = f'style="stroke:#c03020;stroke-width:{reach / 400:.4g}"', 0.05 * reach
+    x, y = number(origin.real), number(origin.imag)
+    ends = [number(at) for at in (origin.real + low.real - over, origin.real + high.real + over)]
+    sides = [number(at) for at in (origin.imag - high.imag - over, origin.imag - low.imag + over)]
+    lines = []
+    if low.imag <= 0 <= high.imag:
+        lines.append(f'<line x1="{ends[0]}" y1="{y}" x2="{ends[1]}" y2="{y}" {style}/>')
+    if low.real <= 0 <= high.real:
+        lines.append(f'<line x1="{x}" y1="{sides[0]}" x2="{x}" y2="{sides[1]}" {style}/>')
+    return lines
 
 
 def _caption(rows: list[str], left: float, size: float) -> list[str]:
-    style = f"font-family:sans-serif;font-size:{size:.4g}px;fill:#202830"
+    """The first one is the title."""
     return [
-        f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{escaped(row)}</text>'
+        text_line(row, left, (i + 1.5) * size * 1.7, size, "" if i else "font-weight:bold;")
         for i, row in enumerate(rows)
     ]

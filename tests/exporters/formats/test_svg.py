@@ -108,6 +108,6 @@ def test_lines_only_has_no_arc(tmp_path: Path) -> None:
 def test_the_preview_shows_text_safely(tmp_path: Path) -> None:
     build_gear(tmp_path, GEARS["undercut"], {"format": "svg"})
     root = ElementTree.parse(tmp_path / "out" / "s" / "g.preview.svg").getroot()
-    texts = [e.text or "" for e in root.iter() if e.tag.endswith("text")]
+    texts = ["".join(e.itertext()) for e in root.iter() if e.tag.endswith("text")]
     assert any("undercut" in t for t in texts)
     assert any(f"{2 * GEARS['undercut'].tip_radius:.4f}" in t for t in texts)

@@ -77,8 +77,10 @@ def words(root: ElementTree.Element) -> list[tuple[str, float, float, float]]:
     """Each with where it begins or has its middle, and its size."""
     found = []
     for text in root.iter(f"{SVG}text"):
-        size = re.findall(r"font-size:([\d.]+)", text.get("style", ""))[0]
-        found.append((text.text or "", float(text.get("x", "")), float(text.get("y", "")), float(size)))
+        scale = float((re.findall(r"scale\(([\d.]+)\)", text.get("transform", "")) or [1])[0])
+        size = float(re.findall(r"font-size:([\d.]+)", text.get("style", ""))[0])
+        x, y = float(text.get("x", "")), float(text.get("y", ""))
+        found.append(("".join(text.itertext()), scale * x, scale * y, scale * size))
     return found
 
 
@@ -94,7 +96,7 @@ def test_a_part_stands_in_the_middle_with_its_circles_and_its_numbers_beside_it(
     for name, diameter in (("tip diameter", 28.0), ("reference diameter", 24.0), ("root diameter", 19.0),
                            ("base diameter", 24 * math.cos(math.radians(20)))):  # fmt: skip
         assert round(diameter, 3) in circles
-        assert any(text.startswith(name) and text.endswith(f"  {diameter:.4f}") for text, *_ in told)
+        assert any(text.startswith(name) and text.endswith(f"\xa0mm\xa0\xa0{diameter:.4f}") for text, *_ in told)
     assert all(c.get("cx") == c.get("cy") == f"{middle:g}" for c in root.iter(f"{SVG}circle"))
     lines = {tuple(float(e.get(k, "")) for k in ("x1", "y1", "x2", "y2")) for e in root.iter(f"{SVG}line")}
     low, high = middle - 1.05 * 14, middle + 1.05 * 14
@@ -233,7 +235,18 @@ def test_ways_and_lengths_of_a_board_are_those_of_its_file(built: Path) -> None:
     assert measured["way_between"] == pytest.approx(way, rel=1e-9)
 
 
-def test_centre_lines_stand_out_of_the_part_by_a_twentieth() -> None:
-    """A part of 40 mm about 43.2: from 1.2 to 85.2, both ways."""
-    ends = [{key: float(v) for key, v in re.findall(r'([xy]\d)="([-\d.]+)"', line)} for line in _cross(43.2, 40.0)]
-    assert ends == [{"x1": 1.2, "y1": 43.2, "x2": 85.2, "y2": 43.2}, {"x1": 43.2, "y1": 1.2, "x2": 43.2, "y2": 85.2}]
+@pytest.mark.parametrize(("corner", "seen"), [
+    (-40 - 20j, [(1.2, 43.2, 85.2, 43.2), (43.2, 21.2, 43.2, 65.2)]),
+    (1 - 20j, [(42.2, 43.2, 85.2, 43.2)]),
+    (-40 + 1j, [(43.2, 21.2, 43.2, 44.2)]),
+    (1 + 1j, []),
+])  # fmt: skip
+def test_centre_lines_stand_out_of_the_part_by_a_twentieth(corner: complex, seen: list[tuple[float, ...]]) -> None:
+    """A part whose upper right corner is 40 + 20i about its origin at (43.2, 43.2); none beside it."""
+    half = max(40 - corner.real, 20 - corner.imag) / 2
+    lines = [{key: float(v) for key, v in re.findall(r'([xy]\d)="([-\d.]+)"', line)}
+             for line in _cross(43.2 + 43.2j, corner, 40 + 20j)]  # fmt: skip
+    out = np.array([-0.05, -0.05, 0.05, 0.05]) * (half - 40)
+    for line, told in zip(lines, seen, strict=True):
+        way = np.array([told[0] != told[2], told[1] != told[3]] * 2)
+        assert [line[k] for k in ("x1", "y1", "x2", "y2")] == pytest.approx(np.array(told) + out * way)
