@@ -10,6 +10,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Contour
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
+from parts.drawing.names import caption_name
 from parts.drawing.tiles import Edge, model_pages
 
 # an arc as flat is half that share of its chord off it, and its centre lost in the rounding of its radius
@@ -20,9 +21,8 @@ def paper_models(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     """The sheets of the parts that are wanted, all of them by default."""
     outlines, errors = {}, {}
     for part in (wanted.parts[name] for name in wanted.wanted):
-        name = (
-            part.id if part.title is None else part.title if part.title not in outlines else f"{part.title} {part.id}"
-        )
+        called = caption_name(part)
+        name = called if called not in outlines else f"{called} {part.id}"
         profiles = part.section(0.0).region.profiles()
         made = [approximate_profile(p, asked.tolerance, arcs=True) for p in profiles]
         outlines[name] = [edge for one in made for edge in _edges(one.geometry)]

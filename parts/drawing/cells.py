@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
+from geometry.plane.letters import HELD
 from parts.drawing.canvas import LEAST_TEXT, NARROWED, SMALL_TEXT, Box, Canvas, text_of, text_width
 
 # free on both sides of a cell's words, mm
 INDENT = 0.8
 # where lines may end: a no-break space holds a number to its symbol
 _SPACES = re.compile(r"[ \t\r\n]+")
+# in place of a space at which no line ends
+_JOINT = "\0"
 # from line to line, heights of a capital
 _STEP = 1.6
 
@@ -44,9 +47,13 @@ def _most(cell: Box, size: float) -> int:
 
 
 def wrapped(text: str, width: float, size: float) -> list[str]:
-    """The text in lines no longer than a width, mm, at its spaces; a word that fits no line goes on in the next one."""
+    """The text in lines no longer than a width, mm, at its spaces; a word that fits no line goes on in the next one.
+
+    A number stays at its symbol where both fit a line.
+    """
     rows: list[str] = []
-    for word in filter(None, _SPACES.split(text)):
+    groups = (group.replace(_JOINT, " ") for group in _SPACES.split(HELD.sub(f"\\1{_JOINT}", text)) if group)
+    for word in (w for group in groups for w in ([group] if text_width(group, size) <= width else group.split(" "))):
         rest = word
         while not fits_line(rest, width):
             count = max(1, sum(text_width(rest[:k], size) <= width for k in range(1, len(rest))))

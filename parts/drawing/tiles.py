@@ -89,7 +89,8 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
             if rows * columns > 1:
                 _marks(canvas, cell, origin)
             cross = [Line(-_MARK * way, _MARK * way) for way in (1, 1j)]
-            if Box(-_MARK, -_MARK, _MARK, _MARK).within(cell):
+            # it may lie where both overlap
+            if Box(-_MARK, -_MARK, _MARK, _MARK).within(cell.grown(OVERLAP / 2)):
                 draw(canvas, "CENTRE_MARK", cross, Paper(1.0, origin))
             place = {"row": rows - row, "column": column + 1, "rows": rows, "columns": columns}
             key = "model_tile" if rows * columns > 1 else "model_whole"

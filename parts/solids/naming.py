@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from itertools import count, takewhile
 from textwrap import wrap
 from typing import TYPE_CHECKING
@@ -13,7 +12,7 @@ import numpy as np
 from geometry.approximation.chords import approximate_profile
 from geometry.base.findings import Finding
 from geometry.base.record import replace
-from geometry.plane.letters import Stroke, lettered
+from geometry.plane.letters import HELD, Stroke, lettered
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
 from geometry.solids.plate import PlateOutline, rounded
@@ -33,8 +32,6 @@ _STEP, _PLACES = 0.88, 41
 _TURNED, _ROOM = 1.5, 1.2
 # of a tag: its letters, what is about them, its corners, and how far it stands off the part, mm
 _TAG, _RIM, _CORNER, _OFF = 3.0, 1.5, 1.0, 3.0
-# between the letters of a quantity and its value, and within that, no line ends
-_HELD = re.compile(r"(?<!\S)([^\W\d]{1,2}|[^\w\s]\S*|\d\S*) +(?=[^\w\s]|\d)")
 
 
 def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.0) -> OffsetRegion:
@@ -140,7 +137,7 @@ class _Way:
 def _layouts(text: str) -> list[tuple[str, ...]]:
     """A text in one line, two or three, as even as its words allow; words that no-break spaces join stay together."""
     found = [tuple(text.splitlines())]
-    text = _HELD.sub("\\1\N{NO-BREAK SPACE}", text)
+    text = HELD.sub("\\1\N{NO-BREAK SPACE}", text)
     for most in (2, 3) if len(found[0]) == 1 else ():
         for width in range(1, len(text)):
             lines = wrap(text, width, break_long_words=False, break_on_hyphens=False)

@@ -74,6 +74,17 @@ def test_round_holes_are_arcs_and_names_are_told_apart(monkeypatch: pytest.Monke
     assert job is not None
 
 
+def test_the_axis_is_marked_where_sheets_overlap_and_parts_are_called_by_their_kind() -> None:
+    """Of a wheel on two sheets the axis lies between both, and neither had its mark."""
+    wheel = '[parts.wheel]\nkind = "spur_gear"\nmodule = 10.0\nnumber_of_teeth = 20\n'
+    export = '[[exports]]\nformat = "pdf"\npurpose = "model"\ntolerance = 0.02\n'
+    raw = f'[scene]\nlanguage = "uk"\n{wheel}{export}'
+    (job,) = plan_build(scene_from_toml(raw.encode(), "s.toml", "s"), "s", [], []).sheets
+    _, *tiles = [page.canvas for page in job.pages]
+    assert [sum(stroke.layer == "CENTRE_MARK" for stroke in tile.strokes) for tile in tiles] == [2, 2]
+    assert all(any(word.text.startswith("Колесо зубчасте wheel, масштаб 1:1") for word in tile.texts) for tile in tiles)
+
+
 def test_a_long_title_with_breaks_stands_in_one_line_within_the_frame() -> None:
     """As many letters as a title may have fill the list of the cover, which keeps within what a printer prints."""
     title = r"Колесо\tдовга\r\nназва\u2028" * 4

@@ -84,10 +84,13 @@ def test_tiles_fit_each_other_and_make_the_exact_outline(tmp_path: Path) -> None
     assert np.ptp(square.imag) == pytest.approx(100.0, abs=1e-3)
     assert len(pages) == 3
     marks = [distinct(np.array([p.mean() for c, p in page if c == STYLES["REGISTER"].colour])) for page in pages[1:]]
-    assert [len(m) for m in marks] == [4, 4]
-    left, right = marks
+    # the axis has one too, in the strip that is on both
+    axes, corners = ([m[(np.abs(m.imag - 148.5) < 50) == inner] for m in marks] for inner in (True, False))
+    assert [len(m) for m in corners] == [4, 4]
+    left, right = corners
     step = left[2] - right[0]
     assert left[3] - right[1] == pytest.approx(step, abs=1e-4)
+    assert axes[0] - axes[1] == pytest.approx(step, abs=1e-4)
     cuts = [np.concatenate([p for c, p in page if c == STYLES["CUT"].colour]) for page in pages[1:]]
     drawn = np.concatenate([cuts[0], cuts[1] + step])
     # a strip about the crosses is on both sheets
@@ -99,6 +102,7 @@ def test_tiles_fit_each_other_and_make_the_exact_outline(tmp_path: Path) -> None
     bore = drawn[np.abs(drawn - middle) < 30]
     rows = np.column_stack([2 * bore.real, 2 * bore.imag, np.ones(len(bore))])
     x, y, _ = np.linalg.lstsq(rows, np.abs(bore) ** 2, rcond=None)[0]
+    assert axes[0] == pytest.approx(complex(x, y), abs=1e-3)
     drawn = drawn - complex(x, y)
     part = plan_build(scene_of(), "t", [], []).parts["two"]
     exact = [

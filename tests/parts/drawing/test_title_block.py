@@ -12,7 +12,7 @@ import pytest
 
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
-from parts.drawing.canvas import Box, Canvas, scale_text
+from parts.drawing.canvas import Box, Canvas, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
 from parts.scene.files import built_in_scenes
@@ -116,12 +116,16 @@ def test_long_words_stay_in_their_cells() -> None:
 
 
 def test_a_number_stays_at_its_symbol() -> None:
-    """Lines end at common spaces alone."""
-    text = "Wheel of the second stage z\u00a0136 m\u00a02.25 x\u00a00.125"
-    for width in range(18, 120, 3):
-        rows = wrapped(text, width, 5.0)
-        assert " ".join(rows) == text
-        assert all(row.count("\u00a0") == sum(row.count(letter + "\u00a0") for letter in "zmx") for row in rows)
+    """Lines end neither at no-break spaces nor where plain ones stand before a number, while both fit a line."""
+    for space in "\u00a0 ":
+        text = f"Wheel of the second stage z{space}136 m{space}2.25 x{space}0.125"
+        for width in range(18, 120, 3):
+            rows = wrapped(text, width, 5.0)
+            assert " ".join(rows) == text
+            pairs = [f"z{space}136", f"m{space}2.25", f"x{space}0.125"]
+            assert all(any(pair in row for row in rows) or text_width(pair, 5.0) > width for pair in pairs)
+    # one that fits no line is no reason to tear its numbers
+    assert wrapped("1 2 3 4 5 6 7 8 9", 12.0, 5.0) == ["1 2", "3 4", "5 6", "7 8", "9"]
 
 
 @pytest.mark.heavy
