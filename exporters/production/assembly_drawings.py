@@ -27,7 +27,7 @@ from parts.scene.placing import PlacedMate, Placing
 _SAME = 1e-6
 # of their pitch circle, within which pins stand on it
 _SEATED = 1e-9
-_TITLE = "A–A"
+_TITLE = "A-A"
 
 
 def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expected]]:

@@ -138,9 +138,11 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     assert isinstance(keys, WormSpec | WormWheelSpec)
     hand, grade = hand_row(keys.hand), grade_rows(keys.accuracy)
     if isinstance(keys, WormSpec):
-        first = _form_bare(rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg")))
+        # an involute one is ground by the lines of its base cylinder
+        named = "axial_module", "number_of_starts", "worm_form", "lead_angle_deg", "base_lead_angle_deg"
+        first = _form_bare(rows_of(page, named))
         own = rows_of(page, (*_WORM, "worm_fillet_coefficient"))
-        last = rows_of(page, ("worm_reference_diameter", "diameter_quotient", "lead"))
+        last = rows_of(page, ("worm_reference_diameter", "diameter_quotient", "worm_base_diameter", "lead"))
         distance = rows_of(page, ("worm_centre_distance",))
         beside = _at_distances(mates, *distance) if mates else distance
         hand = replace(hand, name=N_("direction of the thread"))

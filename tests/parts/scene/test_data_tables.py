@@ -197,6 +197,17 @@ second = "wheel"
 """
 
 
+@pytest.mark.parametrize("form", ["ZI", "ZA"])
+def test_the_table_of_an_involute_worm_tells_its_base_cylinder(form: str) -> None:
+    """GOST 19650: cos gamma_b = cos alpha cos gamma, d_b = z1 m / tan gamma_b; of m 5, z1 2, q 10."""
+    worm = f'[parts.w]\nkind = "worm"\nmodule = 5.0\nnumber_of_starts = 2\nthread_length = 60.0\nform = "{form}"\n'
+    ((_, table, _),) = tables(f"worm {form}", worm).values()
+    rows = {row.symbol: row.value for part in table.parts for row in part}
+    lead = math.acos(math.cos(math.radians(20)) * math.cos(math.atan(0.2)))
+    told = {"γ_b": math.degrees(lead), "d_b": 10 / math.tan(lead)} if form == "ZI" else {}
+    assert {name: rows[name] for name in ("γ_b", "d_b") if name in rows} == pytest.approx(told, rel=1e-12)
+
+
 SPROCKET = """
 [parts.p]
 kind = "sprocket"
@@ -246,7 +257,7 @@ ALONE = {
             '{ move = "return_", angle_deg = 180.0, law = "sine" }]'},
 }  # fmt: skip
 THREAD = {"height to the thread's chord", "chord of the thread on the reference cylinder", "lead of the thread",
-          "number of starts of the worm", "lead angle"}  # fmt: skip
+          "number of starts of the worm", "lead angle", "base lead angle", "base diameter of the worm"}  # fmt: skip
 SPAN = {"spaces in the span", "span over k spaces", "profile shift coefficient"}
 
 
