@@ -13,8 +13,8 @@ import numpy as np
 
 from geometry.curves.curve import Complex
 
-# between the letters of a quantity and its value, and within that, no line ends
-HELD = re.compile(r"(?<!\S)([^\W\d]{1,2}|[^\w\s]\S*|\d\S*) +(?=[^\w\s]|\d)")
+# between the letters of a quantity, or of a standard, and its value, and within that, no line ends
+HELD = re.compile(r"(?<!\S)([^\W\d]{1,2}|ISO|DIN|ANSI|GOST|ГОСТ|ДСТУ|[^\w\s]\S*|\d\S*) +(?=[^\w\s]|\d)")
 Stroke = tuple[complex, ...]
 # the grid: baseline, height of capitals, room between letters, width of a space, from line to line
 _BASE, _CAPITAL, _GAP, _SPACE, _LINE = 4, 12, 3.5, 5, 20

@@ -124,6 +124,8 @@ def test_a_number_stays_at_its_symbol() -> None:
             assert " ".join(rows) == text
             pairs = [f"z{space}136", f"m{space}2.25", f"x{space}0.125"]
             assert all(any(pair in row for row in rows) or text_width(pair, 5.0) > width for pair in pairs)
+    # a standard keeps its number
+    assert wrapped("8-B ГОСТ 1643-81", 33.4, 3.5) == ["8-B", "ГОСТ 1643-81"]
     # one that fits no line is no reason to tear its numbers
     assert wrapped("1 2 3 4 5 6 7 8 9", 12.0, 5.0) == ["1 2", "3 4", "5 6", "7 8", "9"]
 
