@@ -167,7 +167,8 @@ def hand_row(hand: str) -> DataRow:
 def _control(page: Sheet, accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
     """What is measured on the teeth: the first of the ways that the calculation has and the face is wide enough for."""
     steps = {step.name: step.value for step in page.steps()}
-    wide = float(steps.get("face_width", 0.0)) >= float(steps.get("secure_face_width", 0.0))
+    width = steps.get("helix_face_width", steps.get("face_width", 0.0))
+    wide = float(width) >= float(steps.get("secure_face_width", 0.0))
     for names in _CONTROLS:
         rows = rows_of(page, names)
         if len(rows) == len(names) and (wide or names[-1] not in _SPANS):

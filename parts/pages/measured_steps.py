@@ -18,10 +18,14 @@ ISO = "ISO 21771"
 
 
 class Asked(Record):
-    """What a page is asked to measure: helix angle in rad, lengths in mm; ``spanned`` teeth, of a ring spaces."""
+    """What a page is asked to measure: helix angle in rad, lengths in mm; ``spanned`` teeth, of a ring spaces.
+
+    ``double``: the face has two helices, each half as wide.
+    """
 
     helix: float
     face_width: float
+    double: bool
     spanned: int | None
     pin_diameter: float | None
     kerf: float | None
@@ -131,14 +135,18 @@ def _spans(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     page.add("span_contact_diameter", best.contact_diameter, formula, side.source)
     _real_part(page, gear, best, asked, side)
     if asked.helix:
-        _span_width(page, best, asked.face_width)
+        _span_width(page, best, asked)
     if not best.touches_flanks:
         page.note("the span does not touch the involutes")
 
 
-def _span_width(page: Sheet, best: Span, face_width: float) -> None:
-    """What the face must be wide for the span of helical teeth, and what it is."""
-    page.add("face_width", face_width)
+def _span_width(page: Sheet, best: Span, asked: Asked) -> None:
+    """What the face must be wide for the span of helical teeth, and what it is; of two helices that of one."""
+    face_width = asked.face_width / (2 if asked.double else 1)
+    if asked.double:
+        page.add("helix_face_width", face_width)
+    else:
+        page.add("face_width", face_width)
     page.add("least_face_width", best.least_face_width, "{W} * sin(abs({beta_b}))", ISO)
     formula = f"{{b_min}} + ({SPAN_CONTACT[0]} + {SPAN_CONTACT[1]} * {{W}}) * cos({{beta_b}})"
     page.add("secure_face_width", best.secure_face_width, formula, "DIN 3960")

@@ -61,8 +61,8 @@ def sheet(keys: RingKeys) -> Sheet:
     _thicknesses(page, ring, helix, keys.diameter)
     gear_rolls(page, ring)
     _limits(page, ring, keys)
-    measured = keys.measured_span, keys.measured_between_pins
-    asked = Asked(helix, keys.face_width, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)
+    measured, face = (keys.measured_span, keys.measured_between_pins), (keys.face_width, keys.double_helical)
+    asked = Asked(helix, *face, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)
     measured_steps(page, ring, asked)
     return page
 

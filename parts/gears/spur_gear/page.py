@@ -54,8 +54,8 @@ def sheet(keys: SpurKeys) -> Sheet:
     _thicknesses(page, gear, helix, keys.diameter)
     gear_rolls(page, gear)
     _limits(page, gear, helix)
-    measured = keys.measured_span, keys.measured_over_pins
-    asked = Asked(helix, keys.face_width, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
+    measured, face = (keys.measured_span, keys.measured_over_pins), (keys.face_width, keys.double_helical)
+    asked = Asked(helix, *face, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
     measured_steps(page, gear, asked)
     page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     return page

@@ -197,6 +197,20 @@ second = "wheel"
 """
 
 
+@pytest.mark.parametrize(("width", "symbols"), [(30.0, ["k", "W"]), (20.0, ["D", "M"])])
+def test_a_span_is_told_that_one_helix_of_two_holds(width: float, symbols: list[str]) -> None:
+    """W sin beta_b of z 25, m 2, 30 degrees is 12.98 mm: half of 20 mm does not hold it, the whole face would."""
+    gear = f'[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 25\nface_width = {width}\n'
+    more = "helix_angle_deg = 30.0\ndouble_helical = true\n"
+    ((_, table, _),) = tables(f"double {width}", gear + more).values()
+    assert [row.symbol for row in table.parts[1]] == symbols
+    page = json.loads(calculate("spur", ["module=2", "number_of_teeth=25", f"face_width={width}",
+                                         "helix_angle_deg=30", "double_helical=true"], "json", "en"))  # fmt: skip
+    told = {step["symbol"]: step["value"] for step in page["steps"]}
+    assert (told["b_B"], "b" in told) == (width / 2, False)
+    assert (told["b_B"] > told["b_s"]) is (symbols[0] == "k")
+
+
 @pytest.mark.parametrize("form", ["ZI", "ZA"])
 def test_the_table_of_an_involute_worm_tells_its_base_cylinder(form: str) -> None:
     """GOST 19650: cos gamma_b = cos alpha cos gamma, d_b = z1 m / tan gamma_b; of m 5, z1 2, q 10."""
