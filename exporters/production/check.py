@@ -14,11 +14,11 @@ from geometry.base.record import Record, replace
 from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
-from parts.base.texts import N_, words
+from parts.base.texts import words
 from parts.scene.instances import DriveSpec
 from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
 from parts.scene.standing import Instance
-from parts.texts.checks import OFF_CENTRE, called, condition_message
+from parts.texts.checks import CLOSE, OFF_CENTRE, called, condition_message, overlap_told
 from parts.texts.findings import findings_told
 
 if TYPE_CHECKING:
@@ -194,10 +194,7 @@ def _condition(condition: Condition, mate: PlacedMate, told: _Teller) -> dict[st
 
 def _neighbours(close: Closeness, told: _Teller) -> dict[str, Any]:
     both, distance, limit = {"first": close.first, "second": close.second}, close.distance, close.tip_sum
-    text = N_(
-        "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them"
-    )
-    text = told.text(text, **both, value=distance, limit=limit)
+    text = told.text(CLOSE, **both, value=distance, limit=limit)
     return {**both, "distance": distance, "sum_of_tip_radii": limit, "text": text}
 
 
@@ -264,34 +261,19 @@ def _struck(struck: Struck, drives: Sequence[DriveSpec], told: _Teller) -> dict[
     if struck.volume is None:
         return found
     turns = {drive.instance: 360.0 * turned for drive, turned in zip(drives, struck.turns, strict=True)}
-    where = ", ".join(told.text("{drive} by {way:.6g} deg", drive=name, way=way) for name, way in turns.items())
-    text = N_("{first} and {second} run into each other: {value:.4g} mm^3 in common where drives have turned: {where}")
-    text = told.text(text, first=struck.first, second=struck.second, value=struck.volume, where=where)
-    return {**found, "drive_turns_deg": turns, "text": text}
+    found["drive_turns_deg"] = turns
+    return found | {"text": overlap_told(found, words(told.language), told.names)}
 
 
 def _overlap(
     first: str, second: str, volume: float | None, told: _Teller, drive: DriveSpec | None = None, share: float = 0.0
 ) -> dict[str, Any]:
     """Two solids in each other, as they stand or where a drive has run a share of what it is asked for."""
-    verdict, text = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
     found: dict[str, Any] = {"first": first, "second": second, "volume": volume}
-    way = 0.0
-    if volume is None:
-        verdict = "undecided"
-        text = N_("{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it")
-    elif drive is not None and drive.travel is not None:
-        way = found["drive_travel"] = share * drive.travel
-        text = N_(
-            "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has travelled "
-            "{way:.6g} mm"
-        )
-    elif drive is not None:
-        way = found["drive_turn_deg"] = 360.0 * share * drive.turns
-        text = N_(
-            "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has turned by "
-            "{way:.6g} deg"
-        )
+    if volume is not None and drive is not None and drive.travel is not None:
+        found["drive_travel"] = share * drive.travel
+    elif volume is not None and drive is not None:
+        found["drive_turn_deg"] = 360.0 * share * drive.turns
+    found["verdict"] = "undecided" if volume is None else "overlap"
     driven = "" if drive is None else drive.instance
-    text = told.text(text, first=first, second=second, drive=driven, value=volume, way=way)
-    return {**found, "verdict": verdict, "text": text}
+    return found | {"text": overlap_told(found, words(told.language), told.names, driven)}

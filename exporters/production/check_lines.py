@@ -10,8 +10,20 @@ from typing import Any
 
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Words, counted, filled, listed, message, words
+from parts.drawing.names import drawn_names
 from parts.scene.instances import InstanceSpec
-from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS, called, in_rows, pairs_counted
+from parts.texts.checks import (
+    CLOSE,
+    GEAR_PAIR,
+    MATES,
+    OFF_CENTRE,
+    VERDICTS,
+    called,
+    condition_message,
+    in_rows,
+    overlap_told,
+    pairs_counted,
+)
 
 # gaps below this are rounding, mm
 _ROUNDING = 1e-9
@@ -40,6 +52,24 @@ def names_of(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -
     return {key: spec.title or parts[str(spec.part)].called(key) for key, spec in instances.items()}
 
 
+def picture_names(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -> dict[str, str]:
+    """What a picture calls each instance: by titles, else by what its kind is; those of one name are numbered."""
+    names: dict[str, str] = {}
+    for key, spec in instances.items():
+        part = parts[str(spec.part)]
+        own = part.called(key)
+        # a title with a number of a group is a name, one with an id is none
+        titled = part.title is not None and own in (part.title, f"{part.title} {own.rpartition(' ')[2]}")
+        plain = own.rpartition(" ")[2].isdigit() or own == part.title
+        names[key] = spec.title or (own if titled and plain else drawn_names(part, part.language)[0])
+    many, taken = Counter(names.values()), Counter[str]()
+    for key, name in names.items():
+        if many[name] > 1 and instances[key].title is None:
+            taken[name] += 1
+            names[key] = f"{name} ({taken[name]})" if name[-1].isdigit() else f"{name} {taken[name]}"
+    return names
+
+
 def check_lines(
     checks: dict[str, Any], language: str, names: Mapping[str, str] = MappingProxyType({}), *, brief: bool = False
 ) -> list[str]:
@@ -65,14 +95,20 @@ def check_lines(
         lines.append(text)
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
-        lines += [told.text("BROKEN: {text}", text=c["text"]) for c in mate.get("conditions", []) if not c["met"]]
-    lines += [told.text("BROKEN: {text}", text=axle["text"]) for axle in checks.get("axles", [])]
+        broken = [_condition(mate, c) for c in mate.get("conditions", []) if not c["met"]]
+        lines += [told.text("BROKEN: {text}", text=text) for text in broken]
+    axles = (filled(OFF_CENTRE, **called(axle, names)) for axle in checks.get("axles", []))
+    lines += [told.text("BROKEN: {text}", text=text) for text in axles]
     if "in_a_row" in checks:
         apart = ", ".join(names.get(name, name) for name in checks["in_a_row"])
         row = N_("note: neither `at` nor a mate places them, so they stand in a row: {names}")
         lines.append(told.text(row, names=apart))
-    lines += [told.text("note: {text}", text=close["text"]) for close in checks.get("neighbours", [])]
-    lines += [f"{told.text(VERDICTS[one['verdict']])}: {one['text']}" for one in checks.get("solids", [])]
+    for close in checks.get("neighbours", []):
+        numbers = called(close, names) | {"value": close["distance"], "limit": close["sum_of_tip_radii"]}
+        lines.append(told.text("note: {text}", text=filled(CLOSE, **numbers)))
+    drive = next((one["instance"] for one in checks.get("drives", [])), "")
+    for one in checks.get("solids", []):
+        lines.append(f"{told.text(VERDICTS[one['verdict']])}: {overlap_told(one, told, names, drive)}")
     if "motion" in checks and not brief:
         lines += _motion(checks["motion"], told, names)
     if "workspace" in checks and not brief:
@@ -84,6 +120,11 @@ def check_lines(
         for found in checks["order"]["hindered"]:
             lines.append(f"{told.text(VERDICTS[found['verdict']])}: {hindered_told(found, told, names)}")
     return [*lines, *_drives(checks, names, told)]
+
+
+def _condition(mate: Mapping[str, Any], found: Mapping[str, Any]) -> Message:
+    numbers = {key: found[key] for key in ("value", "required", "tolerance")}
+    return condition_message(found["code"], mate["first"], mate["second"], **numbers)
 
 
 def caption_lines(checks: dict[str, Any], language: str, names: Mapping[str, str], most: int) -> list[str]:

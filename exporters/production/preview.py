@@ -43,6 +43,8 @@ _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 _MOST_ARCS, _POINTS = 300, 8
 # points of an edge by which its place is seen
 PER_EDGE = 8
+# points about a roller of a chain
+_ROUND = np.exp(1j * np.linspace(0, 2 * np.pi, 16, endpoint=False))
 # what chords may leave of what lies, part of its reach
 _NEAR = 2e-3
 # of more alike than this one is named for all, by its name without its number
@@ -117,12 +119,12 @@ def _unbroken(row: str) -> str:
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
-    from exporters.production.check_lines import caption_lines, names_of
+    from exporters.production.check_lines import caption_lines, picture_names
     from exporters.production.preview_labels import Label, Tops, spread_labels
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    every = names_of(plan.scene.instances, plan.parts)
+    every = picture_names(plan.scene.instances, plan.parts)
     names = _together(every, stand)
     lying = {i.id: _seen_lying(i, plan.parts[i.part]) for i in stand if not i.is_upright}
     outers = [
@@ -159,7 +161,11 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], x, y, size))
-    body += _chains(plan, shift, corner, reach)
+    chains = [(found[0] + shift, found[1]) for mate in plan.placing.mates if (found := mate.rollers()) is not None]
+    for centres, radius in chains:
+        body += _chain(centres, radius, corner, reach)
+        # no name stands on a roller
+        loops.append([corner.real + at.real + 1j * (corner.imag - at.imag) + radius * _ROUND for at in centres])
     # a wide scene is drawn wide: what is above and below it is cut off
     spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
     seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
@@ -167,9 +173,11 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     body += [_leader(one.line, one.size) for one in named if one and one.line]
     body += [text_line(one.text, one.x, one.y, one.size, "text-anchor:middle;") for one in named if one]
     written = {one.text for one in named if one}
-    covered = [label.text for label in labels if label.text not in written]
+    # no name is broken in the caption
+    whole = {key: name.replace(" ", _NO_BREAK) for key, name in every.items()}
+    covered = [label.text.replace(" ", _NO_BREAK) for label in labels if label.text not in written]
     told = words(language)
-    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, every, _MOST_LETTERS)]
+    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, whole, _MOST_LETTERS)]
     if covered:
         row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(dict.fromkeys(covered))))
         count = len(covered)
@@ -187,21 +195,18 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     return file
 
 
-def _chains(plan: Plan, shift: complex, corner: complex, reach: float) -> list[str]:
-    """The rollers of every chain that runs upright, and the line through their centres."""
-    lines, line = [], f"stroke-width:{reach / 600:.4g}"
-    for mate in plan.placing.mates:
-        if (found := mate.rollers()) is None:
-            continue
-        centres, radius = found[0] + shift, found[1]
-        data = path_data(Contour(centres, np.zeros(len(centres))), corner)
-        lines.append(f'<path d="{data}" style="fill:none;stroke:#c03020;{line}"/>')
-        lines += [
+def _chain(centres: Complex, radius: float, corner: complex, reach: float) -> list[str]:
+    """The rollers of a chain that runs upright, and the line through their centres."""
+    line = f"stroke-width:{reach / 600:.4g}"
+    data = path_data(Contour(centres, np.zeros(len(centres))), corner)
+    return [
+        f'<path d="{data}" style="fill:none;stroke:#c03020;{line}"/>',
+        *(
             f'<circle cx="{number(at.real + corner.real)}" cy="{number(corner.imag - at.imag)}" r="{number(radius)}" '
             f'style="fill:#7f8c99;fill-opacity:0.5;stroke:#202830;{line}"/>'
             for at in centres.tolist()
-        ]
-    return lines
+        ),
+    ]
 
 
 def _leader(line: tuple[complex, complex], size: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -44,10 +45,15 @@ def test_a_pair_of_gears_is_told_by_its_numbers() -> None:
 
 
 def test_what_is_noted_and_broken_is_told_below_its_mate() -> None:
-    mate = PAIR | {"findings": [{"text": "thin"}, {"text": "small"}],
-                   "conditions": [{"met": True, "text": "kept"}, {"met": False, "text": "too near"}]}  # fmt: skip
-    lines = check_lines({"mates": [mate], "axles": [{"text": "no axle"}]}, "en", NAMES)
-    assert lines[1:] == ["note: thin", "note: small", "BROKEN: too near", "BROKEN: no axle"]
+    far = {"met": False, "code": "height", "value": 3.0, "required": 2.0, "tolerance": 0.1}
+    mate = PAIR | {"findings": [{"text": "thin"}, {"text": "small"}], "conditions": [far | {"met": True}, far]}
+    axle = {"axle": "pin_1", "frame": "b", "distance": 0.5, "clearance": 0.1}
+    lines = check_lines({"mates": [mate], "axles": [axle]}, "en", NAMES)
+    assert lines[1:3] == ["note: thin", "note: small"]
+    assert re.match("BROKEN: .*Gear A.*Gear B|BROKEN: .*Gear B.*Gear A", lines[3])
+    assert lines[4:] == [
+        "BROKEN: the axle of Pin 1 passes Gear B 0.5 mm off the centre of a hole, its clearance is 0.1 mm"
+    ]
     assert has_bad_verdict({"mates": [mate]})
     assert has_bad_verdict({"axles": [{"text": "no axle"}]})
     assert not has_bad_verdict({"mates": [PAIR]})
@@ -57,15 +63,15 @@ def test_what_is_noted_and_broken_is_told_below_its_mate() -> None:
         assert has_bad_verdict({"order": {"hindered": [{"verdict": verdict}]}})
     found = {
         "in_a_row": ["a", "x"],
-        "neighbours": [{"text": "close"}],
-        "solids": [{"verdict": "overlap", "text": "a, b"}],
+        "neighbours": [{"first": "a", "second": "x", "distance": 3.0, "sum_of_tip_radii": 4.0}],
+        "solids": [{"verdict": "overlap", "first": "a", "second": "b", "volume": 2.0}],
     }
     lines = check_lines(found, "en", NAMES)
     assert len(lines) == 3
     assert lines[0].endswith("so they stand in a row: Gear A, x")
-    assert lines[1] == "note: close"
+    assert lines[1] == "note: Gear A and x may touch: 3 mm apart, their tips reach 4 mm, no mate joins them"
     assert lines[2].lower().startswith("overlap")
-    assert lines[2].endswith(": a, b")
+    assert lines[2].endswith(": Gear A and Gear B run into each other: 2 mm^3 in common as they stand")
 
 
 def test_transmission_errors_are_told_for_each_sense() -> None:

@@ -10,6 +10,10 @@ import numpy as np
 import pytest
 
 from exporters.formats.svg import text_line
+from exporters.production.check_lines import picture_names
+from exporters.production.plan import plan_build
+from exporters.production.preview import outlines_of, scene_preview
+from parts.scene.load import load_scene, make_parts
 from tests.exporters.making import run
 from tests.exporters.production.test_preview_places import SVG, opened, rings, words
 
@@ -119,3 +123,29 @@ def test_letters_of_a_small_picture_are_not_too_small_for_any_program(built: Pat
         assert text.get("transform") == "scale(0.01)"
         assert float(re.findall(r"font-size:([\d.]+)", text.get("style", ""))[0]) > 5
     assert all(0.05 < size < 0.1 and 3 < x < x + 0.6 * size * len(row) < width for row, x, _, size in words(root))
+
+
+@pytest.mark.parametrize("scene", ["cycloidal_reducer", "fit_coupon", "bevel_reducer", "practicum_example_3"])
+def test_no_two_instances_of_a_picture_have_one_name_and_none_its_id(scene: str) -> None:
+    for language, letters in (("uk", "А-ЯІЇЄҐа-яіїєґ"), ("en", "A-Za-z")):
+        made = load_scene(scene, language)
+        names = picture_names(made.instances, make_parts(made, scene)[0])
+        assert len(set(names.values())) == len(names)
+        assert not [name for name in names.values() if not re.fullmatch(rf"[{letters}'’(),.× 0-9]+", name)]
+
+
+def test_names_stand_on_no_roller_of_a_chain(tmp_path: Path) -> None:
+    plan = plan_build(load_scene("chain_drive", "en"), "chain_drive", [], [])
+    outlines = {key: outlines_of(part.section(0.0).region) for key, part in plan.parts.items()}
+    root = ElementTree.parse(scene_preview(plan, outlines, {}, tmp_path)).getroot()
+    (group,) = root.iter(f"{SVG}g")
+    rollers = [c for c in group.iter(f"{SVG}circle") if "#7f8c99" in c.get("style", "")]
+    at = np.array([complex(float(c.get("cx", "")), float(c.get("cy", ""))) for c in rollers])
+    radii = np.array([float(c.get("r", "")) for c in rollers])
+    told = words(group)
+    assert len(told) == 5
+    assert len(rollers) > 100
+    for text, x, y, size in told:
+        half = 0.5 * size * len(text) / 2
+        near = np.clip(at.real, x - half, x + half) + 1j * np.clip(at.imag, y - 0.7 * size, y)
+        assert (np.abs(at - near) > 0.9 * radii).all(), text

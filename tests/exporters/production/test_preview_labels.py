@@ -48,7 +48,8 @@ def test_parts_over_each_other_keep_their_names_apart(text: str, tmp_path: Path)
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) in (0, 1)
     picture = (tmp_path / "pile" / "pile.preview.svg").read_text(encoding="utf-8")
     found = re.findall(
-        r'<text x="([-\d.e]+)" y="([-\d.e]+)" style="[^"]*font-size:([\d.]+)px[^"]*">(plate_number_\d)<', picture
+        r'<text x="([-\d.e]+)" y="([-\d.e]+)" style="[^"]*font-size:([\d.]+)px[^"]*">((?:plate_number_|Plate )\d)<',
+        picture,
     )
     assert len(found) == 8
     labels = [Label(name, float(x), float(y), float(size)) for x, y, size, name in found]
@@ -124,9 +125,9 @@ def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
     )
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
     picture = (tmp_path / "two" / "two.preview.svg").read_text(encoding="utf-8")
-    assert re.findall(r">([^<>]*(?:small|large)[^<>]*)</text>", picture) == [
-        "large",
-        "without its name in the picture: small",
+    assert re.findall(r">([^<>]*Plate[^<>]*)</text>", picture) == [
+        "Plate 1",
+        "without its name in the picture: Plate\xa02",
     ]
 
 
@@ -252,7 +253,7 @@ def test_many_alike_are_named_once(tmp_path: Path) -> None:
     )
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
     picture = (tmp_path / "row" / "row.preview.svg").read_text(encoding="utf-8")
-    assert re.findall(r">([^<>]*pin[^<>]*)</text>", picture) == ["locating_pin × 8"]
+    assert re.findall(r">([^<>]*Pin[^<>]*)</text>", picture) == ["Pin × 8"]
 
 
 def test_no_name_stands_partly_beyond_the_picture() -> None:

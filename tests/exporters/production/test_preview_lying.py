@@ -32,6 +32,7 @@ WORD = re.compile("block|base")
 
 def seen(text: str, folder: Path) -> tuple[dict[str, list[np.ndarray]], list[tuple[str, complex, float]]]:
     """Loops of each instance, y upwards about the middle of the base; words with place and size."""
+    text = re.sub(r"\[parts\.(\w+)\]\n", r'[parts.\1]\ntitle = "\1"\n', text)
     plan = plan_build(scene_from_toml((text + '[[exports]]\nformat = "stl"\n').encode(), "s.toml", "s"), "s", [], [])
     outlines = {key: outlines_of(part.section(0.0).region) for key, part in plan.parts.items()}
     root, _, _ = opened(scene_preview(plan, outlines, {}, folder))

@@ -20,6 +20,7 @@ from tests.exporters.production.test_checks_told import PARTS
 
 SVG = "{http://www.w3.org/2000/svg}"
 LETTER = 0.6
+NAMES = ("Gear 1", "Gear 2", "Plate")
 
 
 @pytest.fixture(scope="module")
@@ -121,13 +122,13 @@ def test_instances_stand_as_far_apart_as_they_are_and_their_names_on_them(built:
     assert ends[:, 0].min() == pytest.approx(0.08 * reach, rel=1e-3)
     assert ends[:, 2].max() == pytest.approx(width - 0.08 * reach, rel=1e-3)
     told = words(root)
-    names = [(text, x + by.real, y + by.imag, size) for text, x, y, size in told if text in ("a", "b", "slab")]
+    names = [(text, x + by.real, y + by.imag, size) for text, x, y, size in told if text in NAMES]
     for (name, x, y, size), polygon, middle in zip(names, (one, two, slab), (one, two, slab), strict=True):
         assert size == pytest.approx(reach / 30, rel=1e-3)
         assert x == pytest.approx(middle.centroid.x, abs=0.01), name
         # on its material, not in the bore
         assert polygon.contains(shapely.Point(x, y - size / 4)), name
-    caption = [row for row in told if row[0] not in ("a", "b", "slab")]
+    caption = [row for row in told if row[0] not in NAMES]
     assert caption[0][0] == "s"
     low = max(y for _, _, y, _ in caption)
     # the caption above, all of the scene below it, and no more than a margin beneath
