@@ -97,7 +97,7 @@ def test_two_that_stand_are_held_to_distance_angle_and_phase() -> None:
         """Both at places of their own, the second moved along its axis and turned as its helix then wants it."""
         away = apart * math.cos(math.radians(25.0)), apart * math.sin(math.radians(25.0)), 0.0
         at = [c + move * a + o for c, a, o in zip(two.at, two.axis, away, strict=True)]
-        rotation = math.degrees(two.rotation + turn - mating.pair.twists[1] * move)
+        rotation = math.degrees(two.rotation + turn + mating.pair.twists[1] * move)
         stands = {
             "one": {"part": "one", "at": list(one.at)},
             "two": {"part": "two", "at": at, "axis": list(two.axis), "rotation_deg": rotation},
