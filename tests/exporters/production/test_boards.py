@@ -280,6 +280,14 @@ def test_a_spoiled_board_is_caught(spoil: str, words: str, folder: Path, tmp_pat
     assert any(re.search(words, failure) for failure in failures), failures
 
 
+def test_a_word_that_is_engraved_elsewhere_is_caught(folder: Path, tmp_path: Path) -> None:
+    file = copied(folder, tmp_path)
+    drawing = ezdxf.readfile(file)
+    next(e for e in drawing.modelspace() if e.dxf.layer == "ENGRAVE").translate(0.0, 0.05, 0.0)
+    drawing.saveas(file)
+    assert recheck(file).verdict.failures == ("an engraved stroke is not where it should be",)
+
+
 @pytest.mark.parametrize(("key", "value", "words"), [
     ("gap", 3.0, "mm apart instead of 3"), ("margin", 6.0, "from the edge of the board instead of 6"),
 ])  # fmt: skip

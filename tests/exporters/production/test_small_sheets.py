@@ -158,9 +158,20 @@ CHANGES: dict[str, tuple[Callable[[Expected], Expected], str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.parametrize("file", [form for form in FORMS if form == ".pdf"], indirect=True)
+def test_a_state_that_may_hide_lines_is_told(file: Path, tmp_path: Path) -> None:
+    good, spoilt = file.read_bytes(), tmp_path / "s.pdf"
+    spoilt.write_bytes(good.replace(b"/Type /ExtGState", b"/Type /ExtGState /CA 0"))
+    assert spoilt.read_bytes() != good
+    assert any("with CA" in failure for failure in verify_sheets(spoilt, [expected()], TOLERANCE).failures)
+
+
 def test_a_sheet_is_what_it_was_made_of(file: Path) -> None:
     found = verify_sheets(file, [expected()], TOLERANCE)
     assert found.failures == ()
+    whole = expected()
+    higher = replace(whole, canvas=replace(whole.canvas, height=whole.canvas.height + 1))
+    assert any("has paper of 210" in failure for failure in verify_sheets(file, [higher], TOLERANCE).failures)
     assert found.measured["words"] == 3
     assert found.measured["circles"] == 2
     assert found.measured["circle_deviation"] < sheet_rounding(file)
