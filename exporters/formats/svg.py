@@ -111,14 +111,9 @@ def _quartered(vertices: Complex, bulges: Real) -> tuple[Complex, Real]:
     long = np.abs(bulges) > _LONG_BULGE
     if not long.any():
         return vertices, bulges
-    quarter = np.tan(np.arctan(bulges) / 4)
-    places, heights = [], []
-    for start, end, bulge, part in zip(vertices, np.roll(vertices, -1), bulges, quarter, strict=True):
-        cut = abs(bulge) > _LONG_BULGE
-        shares = np.arange(4) / 4 if cut else np.zeros(1)
-        places.append(edge_points(np.array([start]), np.array([end]), np.array([bulge]), shares).ravel())
-        heights.append(np.full(len(shares), part if cut else bulge))
-    return np.concatenate(places), np.concatenate(heights)
+    places = edge_points(vertices, np.roll(vertices, -1), bulges, np.arange(4) / 4)
+    heights = np.where(long, np.tan(np.arctan(bulges) / 4), bulges)
+    return places[long[:, None] | (np.arange(4) == 0)], np.repeat(heights, np.where(long, 4, 1))
 
 
 def _radius(chord: float, bulge: float, decimals: int) -> str:

@@ -94,12 +94,12 @@ def workspace_found(
             for i in placing.instances}  # fmt: skip
     waves = {i.id: _still(train, i) if i.id in lying else _waves_of(train, i.id) for i in stand}
     held = _Held(train, {i.id: i for i in stand if i.id in lying}, poses)
-    bodies, placed = train.moving.stands.body, {i.id: i for i in placing.instances}
+    bodies, placed = {i.id: train.moving.stands.body(i.id) for i in stand}, {i.id: i for i in placing.instances}
     sections = Sections({name: shape.part for name, shape in shapes.items()})
     found, done = WorkspaceFound({why: [] for why in REASONS}), dict[object, bool]()
     for pair in combinations(stand, 2):
         one, two = (i.id for i in pair)
-        if bodies(one) == bodies(two):
+        if bodies[one] == bodies[two]:
             found.rest["fixed"].append((one, two))
             continue
         if {one, two} <= lying.keys() and sections.between(placed[one], placed[two]) is not None:
@@ -247,7 +247,7 @@ class _Seen:
         # of what is round its own turn does not matter
         self.reaches = tuple(shape.reach if shape.count(0.0, math.inf) else 0.0 for shape in shapes)
         self.swept = any(isinstance(shape, LyingShape) and shape.turns for shape in shapes)
-        self.moves = bool(_differences([*self.arms, *(wave.own for wave in waves)]))
+        self.moves = any(rates != waves[0].own for rates in (waves[1].own, *self.arms))
 
     @cached_property
     def vectors(self) -> tuple[Rates, ...]:
