@@ -215,7 +215,7 @@ def topic_keys(topic: str, keys: type[Struct], others: Iterable[tuple[str, str]]
 
 def plain_scene(text: str, source: str) -> str:
     """The text of a scene, its defaults filled in, its assemblies told out as parts, instances, mates and drives."""
-    raw, _ = plain_tables(tomllib.loads(text), source)
+    raw, *_ = plain_tables(tomllib.loads(text), source)
     lines: list[str] = []
     for name in [name for name in _TABLES if name in raw]:
         table = raw[name]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
+from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import fields
@@ -15,13 +16,22 @@ from parts.base.reasons import REMEDIES, reason
 from parts.base.texts import ENGLISH, Message, Text, counted, filled, listed, message, standard_told, words
 
 
+class Rulers(NamedTuple):
+    """Keys of an assembly: of which a place follows in what it makes, and of which only others in the same part do."""
+
+    own: list[str]
+    others: list[str]
+
+
 class SceneError(Curable, ValueError):
     """A scene cannot be read or built.
 
     ``source``: the file, ``key``: the place in it, ``value``: what stands there (None: nothing), ``code``: what is
     wrong, ``numbers``: what the sentence of that code needs, ``nearest``: the value of the key that works, found when
-    it is asked for; ``unit``: its unit.
+    it is asked for; ``unit``: its unit; ``rulers``: the keys of which the place follows, where it was not typed.
     """
+
+    rulers: Rulers | None = None
 
     def __init__(self, source: str, key: str, value: object, code: str, nearest: Cure = None, /,
                  unit: str = "", **numbers: object) -> None:  # fmt: skip
@@ -35,7 +45,9 @@ class SceneError(Curable, ValueError):
 
     def at(self, key: str) -> SceneError:
         """The same refusal of another key."""
-        return SceneError(self.source, key, self.value, self.code, lambda: self.nearest, self.unit, **self.numbers)
+        there = SceneError(self.source, key, self.value, self.code, lambda: self.nearest, self.unit, **self.numbers)
+        there.rulers = self.rulers
+        return there
 
     @property
     def remedy(self) -> str:
@@ -132,10 +144,19 @@ def explained(refusal: SceneError) -> Message:
     word = refusal.value if isinstance(refusal.value, str) and in_latin(refusal.value).isascii() else ""
     if letter := look_alike(f"{refusal.key} {word}"):
         why = message("{why}; {remedy}", why=why, remedy=letter)
-    nearest = refusal.nearest
-    if nearest is None:
-        return why
-    return message("{why}; {remedy}", why=why, remedy=_remedy(nearest, refusal.unit))
+    if (nearest := refusal.nearest) is not None:
+        why = message("{why}; {remedy}", why=why, remedy=_remedy(nearest, refusal.unit))
+    return why if refusal.rulers is None else _following(why, refusal.rulers)
+
+
+def _following(why: Message, rulers: Rulers) -> Message:
+    """A refusal with the keys that its place follows from, and those of the rest of its part where these are few."""
+    own, others = ", ".join(rulers.own), ", ".join(rulers.others)
+    if own and others and len(rulers.others) <= _FEW:
+        return message(
+            "{why}; it follows from {keys}, the rest of the part from {others}", why=why, keys=own, others=others
+        )
+    return message("{why}; it follows from {keys}", why=why, keys=own) if own else why
 
 
 def _remedy(nearest: Nearest, unit: str) -> Message:

@@ -379,7 +379,9 @@ def _add_carrier(made: _Set, making: Making) -> None:
     for wheel in made.wheels:
         if not wheel.is_ring:
             turns = wheel in made.wheels[1:3]
-            making.told(wheel.id, bore_diameter="pin_diameter" if turns else "shaft_diameter")
+            # with a clearance the bore of what turns is no key's own
+            if not (turns and made.keys.clearance):
+                making.told(wheel.id, bore_diameter="pin_diameter" if turns else "shaft_diameter")
 
 
 def _add_frame(made: _Set, making: Making) -> None:

@@ -157,7 +157,8 @@ class ChecksSpec(Struct, forbid_unknown_fields=True):
 class SceneFile(Struct, forbid_unknown_fields=True):
     """A scene as resolved: what ``report.json`` keeps and ``verify`` builds again.
 
-    ``origins``: for places that the file does not have, since a group was told out, those that it has.
+    ``origins``: for places that the file does not have, since a group was told out, those that it has; ``typed``: the
+    tables of a scene with assemblies before these were told out.
     """
 
     name: str
@@ -172,6 +173,7 @@ class SceneFile(Struct, forbid_unknown_fields=True):
     beds: dict[str, BedSpec] = {}
     steps: list[StepSpec] = []
     origins: dict[str, str] = {}
+    typed: dict[str, Any] = {}
 
 
 @contextmanager
@@ -289,13 +291,30 @@ def _validated(raw: dict[str, Any], source: str, name: str, language: str | None
     _check_tables(raw, source)
     if language is not None:
         raw = {**raw, "scene": {**raw.get("scene", {}), "language": language}}
-    raw, origins = plain_tables(raw, source)
-    with in_keys_of_file(origins):
-        return _scene_of(in_language(raw, source), source, name, origins)
+    raw, origins, typed = plain_tables(raw, source)
+    with in_keys_of_file(origins), _with_rulers(typed, origins, source):
+        scene = _scene_of(in_language(raw, source), source, name, origins)
+    scene.typed = typed
+    return scene
 
 
-def plain_tables(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str, str]]:
-    """The tables of a scene, defaults filled in and assemblies told out, and for places in them those of the file."""
+@contextmanager
+def _with_rulers(typed: dict[str, Any], origins: Mapping[str, str], source: str) -> Iterator[None]:
+    """Refusals of what a recipe has made tell the keys that it follows from."""
+    try:
+        yield
+    except SceneError as refusal:
+        if typed:
+            from parts.scene.ruled import rulers
+
+            refusal.rulers = rulers(refusal.key, _in_file(refusal.key, origins), typed, source)
+        raise
+
+
+def plain_tables(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str, str], dict[str, Any]]:
+    """The tables of a scene, defaults filled in and assemblies told out; for places in them those of the file; and,
+    where there are assemblies, the tables before these were told out.
+    """
     origins: dict[str, str] = {}
     if "defaults" in raw:
         from parts.scene.defaults import filled_in
@@ -306,13 +325,15 @@ def plain_tables(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict
 
         raw, thick = as_thick_as_board(raw)
         origins |= thick
+    typed: dict[str, Any] = {}
     if "assemblies" in raw:
         from parts.scene.recipes import told_out
 
+        typed = raw
         with in_keys_of_file(origins):
             raw, told = told_out(raw, source)
         origins |= {place: _in_file(there, origins) for place, there in told.items()}
-    return raw, origins
+    return raw, origins, typed
 
 
 def _takes(source: str, table: dict[str, Any], key: str, value: object) -> bool:
@@ -539,6 +560,11 @@ def default_export(name: str) -> ExportSpec:
 
 def make_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of a scene, each checked to exist, as its mates want them; and the mates."""
+    with _with_rulers(scene.typed, scene.origins, source):
+        return _made_parts(scene, source)
+
+
+def _made_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     parts, matings = _bored(scene, source)
     # what a chamfer leaves of the edges only the solid tells, and flat files must not show what cannot be made
     if chamfered := {key: part for key, part in parts.items() if value_at(part.keys, "face_chamfer")}:
@@ -641,7 +667,7 @@ _SELDOM = (
 def resolved(scene: SceneFile) -> dict[str, Any]:
     """The scene as JSON has it, pairs as lists too, with every default filled in and every group told out."""
     data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(scene))
-    del data["origins"]
+    del data["origins"], data["typed"]
     # told where there are some
     for key in [key for key in (*PURPOSES_LAID, "steps") if not data[key]]:
         del data[key]

@@ -84,8 +84,9 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return None if opened is None else ("quote_not_closed", {"line": opened[0], "key": opened[1]})
     number, column = int(at[1]), int(at[2]) - 1
     line = text.split("\n")[number - 1]
-    form = "YAML" if _YAML.match(line) else _OTHERS.get(line.strip()[:1])
-    if form is not None:
+    if _YAML.match(line):
+        return "other_format", {"line": number, "format": "YAML"}
+    if why.startswith("Invalid statement") and (form := _OTHERS.get(line.strip()[:1])):
         return "other_format", {"line": number, "format": form}
     if hidden := next((c for c in line if unicodedata.category(c) == "Cf"), None):
         return "hidden_character", {"line": number, "letter": f"U+{ord(hidden):04X}"}

@@ -21,6 +21,7 @@ from geometry.base import nearest as search
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.plane import undercut
 from parts.base.refusal import SceneError, sentence
+from parts.scene.files import built_in_scenes
 from parts.scene.load import make_parts, scene_from_dict
 from tests.offered import SLIDERS, Raw, at, cam, put, scenes, spoiled
 
@@ -358,6 +359,37 @@ def test_a_trial_does_not_ask_how_much_is_wrong(
     assert refusal is not None
     assert str(refusal)
     assert 0 < times[0] <= most
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "value", "place", "own", "others"),
+    [
+        ("lesson_5", "guide_pin_diameter", 12.0, "parts.frame.holes[3].diameter", ["guide_pin_diameter"], "slot_start"),
+        # the sum of both; and what is too small for it
+        ("lesson_5", "stem_width", 1.2, "parts.washer.holes[1].diameter", ["clearance", "roller_pin_diameter"],
+         "stem_width"),
+        # was told as a pin diameter of 105 mm, which nobody has typed
+        ("lesson_2", "clearance", 100.0, "parts.satellite.bore_diameter", ["clearance", "pin_diameter"], "module"),
+    ],
+)  # fmt: skip
+def test_what_a_recipe_makes_tells_the_keys_that_it_follows_from(
+    scene: str, key: str, value: float, place: str, own: list[str], others: str
+) -> None:
+    raw = tomllib.loads(built_in_scenes()[scene].read_text("utf-8"))
+    refusal = refusal_of(put(raw, ("assemblies", 0, key), value))
+    assert refusal is not None
+    assert place in refusal.key
+    assert refusal.rulers is not None
+    assert sorted(refusal.rulers.own) == own
+    assert others in refusal.rulers.others
+    assert f"it follows from {', '.join(refusal.rulers.own)}" in refusal.remedy
+
+
+def test_what_was_typed_follows_from_nothing() -> None:
+    raw = tomllib.loads(built_in_scenes()["lesson_5"].read_text("utf-8"))
+    refusal = refusal_of(put(raw, ("assemblies", 0, "least_transmission_angle_deg"), 30.0))
+    assert refusal is not None
+    assert (refusal.key, refusal.rulers) == ("assemblies[1].follower_radius", None)
 
 
 def test_a_wrong_offer_is_noticed() -> None:

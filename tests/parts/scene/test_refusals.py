@@ -500,6 +500,7 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("number of teeth = 20", "line 2: write number_of_teeth = 20"),
         ("bore = { diameter: 5 }", "line 2: between a key and its value stands =, not a colon"),
         ('phases = [{"move": "rise"}]', "line 2: between a key and its value stands =, not a colon"),
+        ("phases = [\n  { move: 1 }\n]", "line 3: between a key and its value stands =, not a colon"),
         ("<scene>", "line 2: scenes are TOML, not XML"),
         ("gear:", "line 2: scenes are TOML, not YAML"),
         # what is wrong in another way is told as before
