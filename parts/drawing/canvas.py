@@ -372,6 +372,12 @@ class Canvas(Draft):
             y = area.low + k * SQUARE
             self.line("ORDINATE", complex(area.left, y), complex(area.right, y))
 
+    def squares_about(self, at: complex, room: Box, beside: float = 0.0) -> None:
+        """Squared paper within a room: a point lies on a corner of squares, or ``beside`` of a square away from it."""
+        sides = at.real - room.left, at.imag - room.low, room.right - at.real, room.high - at.imag
+        left, below, right, above = ((side // SQUARE - beside) * SQUARE for side in sides)
+        self.squares(Box(at.real - left, at.imag - below, at.real + right, at.imag + above))
+
     def write(
         self, text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None, *,
         answer: bool | None = None,

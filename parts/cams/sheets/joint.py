@@ -23,6 +23,8 @@ from parts.drawing.labels import Labeller
 # strokes of the hatching along a border, mm
 HATCH, HATCH_STEP = 4.0, 2.5
 _MARK = 0.7
+# around squared paper, for the axes' ends and names, mm
+_NAMES = 5.0
 
 
 class Joint(Record):
@@ -56,9 +58,12 @@ class Joint(Record):
     def draw(self, canvas: Canvas, paper: Paper, window: Box, asked: Asked) -> Drawn:
         """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name``.
 
-        By hand: the axes alone.
+        By hand: squared paper with the axes, to draw it on.
         """
         drawn, to = Drawn(), paper.point
+        if asked.by_hand:
+            room = Box.of([to(corner) for corner in window.corners]).grown(-_NAMES)
+            canvas.squares_about(paper.origin, room)
         canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
         canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
         for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
@@ -94,10 +99,10 @@ class Joint(Record):
         to, say = paper.point, self.picture.say
         labels.name("S", to(1j * window.high), prefer=1 - 1j)
         labels.name("S" + "'" * self.order, to(complex(window.right, 0)), prefer=-1 + 1j)
-        labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
         if by_hand:
             name_asked(labels, self.picture, to(complex(window.right, 0)))
             return
+        labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
         if self.offset:
             text = f"E = {say(self.offset)}"
             labels.name(text, to(complex(self.offset, window.high)), SMALL_TEXT, prefer=1 - 1j, answer=False)

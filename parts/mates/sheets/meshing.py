@@ -13,7 +13,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
-from parts.drawing.canvas import SQUARE, Box, Canvas, decimal, draw, fitted, scale_text
+from parts.drawing.canvas import Box, Canvas, decimal, draw, fitted, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, Table
@@ -156,9 +156,7 @@ def _squares(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
     pole, to, window, room = picture.on_line(picture.pole), view.paper.point, view.window, view.room
     at = to(pole)
     # both lines run between those of the squares
-    sides = at.real - room.left, at.imag - room.low, room.right - at.real, room.high - at.imag
-    left, below, right, above = ((side // SQUARE - 0.5) * SQUARE for side in sides)
-    canvas.squares(Box(at.real - left, at.imag - below, at.real + right, at.imag + above))
+    canvas.squares_about(at, room, beside=0.5)
     canvas.line("CENTRE", to(complex(0, window.low)), to(complex(0, window.high)))
     canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
     _mark(canvas, at)

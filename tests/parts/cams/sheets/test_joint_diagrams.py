@@ -410,10 +410,31 @@ def test_a_swings_region_is_that_of_its_pressure_angles(sense: str, way: int) ->
     assert 0.6 * length / 2.5 < len(hatches) <= length / 2.5 + 1
 
 
+@pytest.mark.parametrize("follower", [ROLLER.format(offset=6.0), FLAT])
+def test_by_hand_squared_paper_lies_about_the_axes(follower: str) -> None:
+    drawn = Drawn(picture(follower), by_hand=True)
+    scale, lines = drawn.paper.scale, drawn.lines("ORDINATE")
+    for upright in (False, True):
+        across = [a.real if upright else a.imag for a, b in lines if (a.real == b.real) is upright]
+        assert len(across) > 15
+        assert np.diff(sorted(across)) * scale == pytest.approx(2.5)
+        # one line in the axis, from which students measure
+        assert min(np.abs(across)) * scale < 1e-9
+    # all that the diagram reaches lies on squares
+    most, tall = (max(abs(a.real) for a, _ in lines), max(a.imag for a, _ in lines))
+    shown = Drawn(picture(follower))
+    curves = [s.curve for s in shown.strokes if s.layer == "JOINT_DIAGRAM"]
+    reach = np.concatenate([curve.point(np.linspace(*curve.domain, 33)) for curve in curves])
+    reach = (reach - shown.paper.origin) / scale
+    assert most >= np.abs(reach.real).max()
+    assert tall >= reach.imag.max()
+    assert all(drawn.window.holds(p) for line in lines for p in line)
+
+
 def test_by_hand_the_axes_stand_alone_with_what_is_given() -> None:
     drawn = Drawn(picture(ROLLER.format(offset=6.0)), by_hand=True)
-    assert {s.layer for s in drawn.strokes} == {"AXIS"}
-    assert {t.text for t in drawn.canvas.texts} == {"S", "S'", "S0", "γmin = 60°"}
+    assert {s.layer for s in drawn.strokes} == {"AXIS", "ORDINATE"}
+    assert {t.text for t in drawn.canvas.texts} == {"S", "S'", "γmin = 60°"}
     drawn = Drawn(picture(ARM.format(sense="with"), 50.0), by_hand=True)
     assert np.array(drawn.lines("AXIS")) == pytest.approx(np.array([(0j, 90)]), rel=1e-9)
     assert drawn.marks("DIMENSION") == pytest.approx([0j, 90], rel=1e-9)
@@ -421,4 +442,4 @@ def test_by_hand_the_axes_stand_alone_with_what_is_given() -> None:
     assert {t.text for t in drawn.canvas.texts} == {"O", "C", "γmin = 50°"}
     assert {t.answer for t in drawn.canvas.texts if t.text.startswith("γ")} == {False}
     drawn = Drawn(picture(ROLLER.format(offset=0.0), None), by_hand=True)
-    assert {t.text for t in drawn.canvas.texts} == {"S", "S'", "S0"}
+    assert {t.text for t in drawn.canvas.texts} == {"S", "S'"}
