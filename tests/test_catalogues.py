@@ -245,6 +245,14 @@ def test_numbers_of_texts_have_points_as_those_beside_them_do(file: Path) -> Non
     assert not mixed
 
 
+def test_the_reference_diameter_has_one_name_in_ukrainian() -> None:
+    """That of GOST 2.403, in tables of drawings and on pages."""
+    (file,) = (f for f in catalogue_files() if f.parts[-3] == "uk")
+    named = [str(m.string) for m in texts_of(file) if str(m.id).startswith("reference diameter")]
+    assert len(named) > 4
+    assert {" ".join(text.split()[:2]) for text in named} == {"ділильний діаметр"}
+
+
 @FILES
 def test_plurals_have_all_forms(file: Path) -> None:
     catalogue = read(file)
