@@ -25,6 +25,16 @@ def greville(degree: int, knots: Real) -> Real:
     return found
 
 
+def seen_places(degree: int, knots: Real, pieces: int) -> Real:
+    """Greville's places, the gaps between them cut into so many pieces.
+
+    A spline through them is farthest off within a gap, and gaps at both ends are a small part of a span.
+    """
+    places = greville(degree, knots)
+    gaps = len(places) - 1
+    return np.interp(np.linspace(0, gaps, gaps * pieces + 1), np.arange(gaps + 1), places)
+
+
 def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: P) -> P:
     """Poles (u, v, ...) through points (u, v, ...) at Greville's places of both knots."""
     along, across = (basis_matrix(degree, knots, greville(degree, knots)) for knots in (u_knots, v_knots))

@@ -13,7 +13,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from geometry.approximation.outline import Outline
-from geometry.approximation.tensor import axis_poles, clamped, greville
+from geometry.approximation.tensor import axis_poles, clamped, greville, seen_places
 from geometry.base.errors import ConvergenceError
 from geometry.base.placement import Placement2
 from geometry.curves.bspline import BSpline, SeenEdge, basis_matrix
@@ -23,7 +23,6 @@ from geometry.gears.face.gear import FLANK, SIDES, FaceGear, Places
 from geometry.gears.face.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.body_faces import body_outlines
-from geometry.solids.charts import span_shares
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import Plane
 from geometry.solids.measured import Measured
@@ -31,9 +30,9 @@ from geometry.solids.rings import UP
 from geometry.solids.splines import involute_walls
 from geometry.solids.toothed import ToothedFaces, ToothWall
 
-# degrees across a side and along it, where it is nearly straight; spans one way at most, samples of each, and what is
-# added to sampled errors
-_DEGREES, _MOST_SPANS, _SAMPLES, _MARGIN = (7, 5), 64, 11, 1.5
+# degrees across a side and along it, where it is nearly straight; spans one way at most, samples of each gap
+# between interpolated places, and what is added to sampled errors
+_DEGREES, _MOST_SPANS, _SAMPLES, _MARGIN = (7, 5), 64, 4, 1.5
 # mm: splines are never farther off, along the normal; and at both ends from the cylinders there, where kernels join
 # edges and faces within 1e-7 mm
 _COARSEST, _JOINT, _ROUNDING = 1e-6, 2e-8, 8e-15
@@ -117,7 +116,7 @@ def _spans(gear: FaceGear, which: int, axis: int, least: float) -> int:
     while spans <= _MOST_SPANS:
         breaks = _breaks(which, axis, spans)
         knots = clamped(degree, breaks)
-        fine = span_shares(knots, _SAMPLES)
+        fine = seen_places(degree, knots, _SAMPLES)
 
         def at(own: Real) -> Places:
             return _places(gear, which, *((own, lines) if axis == 0 else (lines, own)))
@@ -165,7 +164,7 @@ def _fitted_wall(gear: FaceGear, which: int, across: int, along: int) -> _Wall:
     exact = _places(gear, which, *(greville(degree, own) for degree, own in zip(_DEGREES, knots, strict=True)))
     half = axis_poles(_DEGREES[1], knots[1], _spatial(gear, exact), 1)
     poles = axis_poles(_DEGREES[0], knots[0], half, 0)
-    fine = [span_shares(own, _SAMPLES) for own in knots]
+    fine = [seen_places(degree, own, _SAMPLES) for degree, own in zip(_DEGREES, knots, strict=True)]
     rows, columns = (basis_matrix(*each) for each in zip(_DEGREES, knots, fine, strict=True))
     made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
     error = _MARGIN * float(_off(gear, _places(gear, which, *fine), made).max())

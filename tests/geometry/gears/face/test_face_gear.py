@@ -205,6 +205,20 @@ def test_splines_follow_the_sides_and_points_off_them_are_measured() -> None:
             assert np.abs(ends).max() < 3e-8
 
 
+def test_the_told_error_of_splines_is_that_of_their_end_spans_too() -> None:
+    # few spans on a long fillet: these were off most between the samples beside the root
+    gear = made(0.05, 12, 400, 20.0, 0.2, 0.0)
+    found = faced_face_gear(gear).within(1e-6)
+    sides = [faces.surface for faces in found.geometry.faces if isinstance(faces.surface, SplineSurface)]
+    worst = []
+    for surface in sides:
+        ends = np.concatenate([near := np.geomspace(1e-3, 0.1, 40), 1 - near])
+        rows, columns = map(basis_matrix, surface.degrees, (surface.u_knots, surface.v_knots), (ends, ends))
+        points = np.einsum("iu,uvc,jv->ijc", rows, found.geometry.points[surface.poles[3]], columns)
+        worst.append(np.min([wall_distance(gear, which, points.reshape(-1, 3)) for which in SIDES], axis=0).max())
+    assert 1e-7 < max(worst) < found.max_error / 1.3
+
+
 def test_the_volume_is_that_of_the_plate_and_of_teeth_sliced_on_cylinders() -> None:
     gear = made(*CASES[1])
     nodes, weights = np.polynomial.legendre.leggauss(24)
