@@ -144,7 +144,7 @@ SHEETS = [
     ("belt", "belt_drive", "speed_rpm=600", "torque=0.4"),
     ("belt", "belt=5M", "number_of_teeth=20", "mate_number_of_teeth=40", "centre_distance=180", "speed_rpm=1450",
      "power=500"),
-    ("noncircular", "oval_gears", "part=oval"),
+    ("noncircular", "oval_gears", "part=oval", "profile_shift_coefficient=0.2"),
     ("power-table", "x=50", "y=-80", "orientation=thesis"),
     ("power-table", "arms=[72,50]", "x=-30", "y=40"),
     ("lever", "code=1071"),

@@ -405,6 +405,12 @@ def test_the_most_that_every_bearing_carries(module: dict[str, Any]) -> None:
     assert 2 * tilt / 280 < lifted <= 2 * tilt / 280 + 140
     preloads = [s["value"] for s in module["steps"] if s["name"] == "preload"]
     assert preloads == [pytest.approx(140 / 1.5), pytest.approx(lifted / 1.5)]
+    # balls of 8 mm in grooves of 0.52 of them, on a circle of 280 mm about a race; those of disk 3 on a plain bore
+    groove = (1 / 4 - 1 / (0.52 * 8), 1 / 4 + 1 / (280 - 4))
+    modulus = 206_000 / (2 * (1 - 0.3**2))
+    for part, curvatures in (("ring on disk 2", groove), ("disk 3 in disk 2", (1 / 4, 1 / 4))):
+        ball, pressed = (carried(module, "load_worst", part, what)["at most"] for what in ("load of one", "pressure"))
+        assert pressed == pytest.approx(hertz.pressure(ball, curvatures, modulus), rel=1e-9)
 
 
 def test_a_load_that_is_told_at_a_place() -> None:

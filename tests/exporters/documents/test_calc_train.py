@@ -307,6 +307,14 @@ def test_a_load_that_turns_with_its_link_is_told(load: int, drives: bool) -> Non
     assert ("the load on H acts along its turning" in text) == drives
 
 
+@pytest.mark.parametrize(("mesh", "speed", "ratio"), [("1-2", 50, -2), ("1-2", -50, -2), ("1-2 internal", 50, 2)])
+def test_speeds_without_a_sign_are_those_of_their_mesh(mesh: str, speed: int, ratio: int) -> None:
+    """External wheels turn against each other, whether the second one's speed says so or not."""
+    steps = sheet_of("train", ("teeth.1=20", f"meshes={mesh}", "speeds.1=100", f"speeds.2={speed}"))[0].steps()
+    assert {s.value for s in steps if s.symbol == "u_12" and isinstance(s.value, float)} == {ratio}
+    assert next(s.value for s in steps if s.symbol == "z_2") == 40
+
+
 def test_speeds_are_taken_and_told_in_rpm_too() -> None:
     """The carrier of 24/24/72 turns once for four turns of the sun: 1440 rpm, 150.796 rad/s."""
     words = ["meshes=1-2, 2-3 internal", "teeth=[24,24,72]", "carriers.H=2", "held=3"]

@@ -18,6 +18,7 @@ from geometry.approximation.chords import approximate_profile
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from tests.parts.limits import refused, scene_of
 
 PLATE = {"kind": "carrier_plate", "number_of_pins": 3, "pin_circle_diameter": 80.0, "pin_diameter": 6.0}
 SPACERS = {"count": 3, "pitch_circle_diameter": 60.0, "diameter": 3.0, "start_deg": 60.0}
@@ -138,6 +139,17 @@ def test_digits_that_find_no_room_are_refused_with_what_works() -> None:
     assert nearest is not None
     ring["tooth_mark"] = {"height": nearest.value}
     make_parts(scene_from_dict({"parts": {"p": ring}}, "t", "t"), "t")
+
+
+@pytest.mark.parametrize(("start", "fits"), [(180.0, True), (0.0, False)])
+def test_a_hole_leaves_digits_no_room_only_where_they_stand(start: float, fits: bool) -> None:
+    """They stand on +x: a hole on the other side of the rim is none of theirs."""
+    hole = {"count": 1, "diameter": 6.0, "pitch_circle_diameter": 150.0, "start_deg": start}
+    ring: dict[str, Any] = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60, "outer_diameter": 160.0,
+                            "tooth_mark": {"height": 6.0}, "holes": hole}  # fmt: skip
+    found = refused(scene_of(ring))
+    assert (found is None) == fits
+    assert found is None or (found.key, found.code) == ("parts.p.tooth_mark.height", "no_room_for_digits")
 
 
 @pytest.mark.parametrize(("keys", "key", "given", "works"), [

@@ -151,6 +151,8 @@ def test_a_designation_of_another_standard_is_told_so(size: str, given: Any, mea
     ("size", "keys"),
     [
         ("50x2 DIN 5480", {}),
+        # of four numbers the third is the pressure angle, and DIN 5480 has one
+        ("W 120 x 3 x 20 x 38", DIN),
         ("24z x 0m x 30P", ISO),
         ("201z x 2m x 30P", ISO),
         ("24z x 2m x 30", ISO),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import shapely
 
-from geometry.base.errors import CuspError, OffsetError, ParameterError, PointedTipError
+from geometry.base.errors import CuspError, Nearest, OffsetError, ParameterError, PointedTipError
 from geometry.base.record import replace
 from geometry.curves.curve import Curve
 from geometry.gears.noncircular.gear import NoncircularGear, cut_outline
@@ -284,8 +284,14 @@ def test_concave_centrodes_are_refused() -> None:
         _ = gear(LobedEllipse(1.0, 0.4, 2), 60).outline
     # the flat place of the limit itself is cut
     assert gear(LobedEllipse(1.0, 1 / 3, 2), 42).outline.undercut == 0
-    with pytest.raises(ParameterError, match="mate_does_not_close"):
-        paired(OVAL, (38, 50), 2.0, None)
+
+
+@pytest.mark.parametrize(("teeth", "closing"), [(50, 57), (46, 38), (5, 19)])
+def test_a_mate_that_does_not_close_is_offered_whole_lobes_nearby(teeth: int, closing: int) -> None:
+    """38 teeth of 2 lobes: the mate has a multiple of 19."""
+    with pytest.raises(ParameterError, match="mate_does_not_close") as refusal:
+        paired(OVAL, (38, teeth), 2.0, None)
+    assert refusal.value.nearest == Nearest(closing)
 
 
 def test_a_ratio_gives_its_centrodes() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import random
+import re
 from fractions import Fraction
 
 import pytest
@@ -83,6 +84,16 @@ def test_sets_of_few_teeth_are_offered_teeth_that_exist(teeth: tuple[int, int, i
             and 2 * math.sin(math.pi / satellites) * (a + b) > 2 * b + 4}  # fmt: skip
     offered = tuple(map(int, str(refusal.value.numbers["teeth"]).split("/")))
     assert fits[offered] == min(fits.values())
+
+
+def test_double_satellites_are_offered_teeth_on_one_distance() -> None:
+    """Both meshes as far from the axis; seven satellites, the second mesh a whole number of teeth on at each."""
+    one = given_set(SCHEMES["david"], (50, 30, 20, 60), (Fraction(2), Fraction(2)))
+    with pytest.raises(ParameterError) as refusal:
+        Satellites(7).places(one)
+    z1, z2, z2p, z3 = map(int, re.findall(r"\d+", str(refusal.value.numbers["teeth"])))
+    assert z1 + z2 == z2p + z3
+    assert abs(z1 * z2p - z2 * z3) // math.gcd(z2, z2p) % 7 == 0
 
 
 def test_published_places() -> None:
