@@ -6,7 +6,8 @@ from exporters.production.check_lines import caption_lines, check_lines
 
 
 def _fixed(second: str, met: bool = True) -> dict[str, object]:
-    conditions = [] if met else [{"met": False, "text": f"{second} stands apart"}]
+    high = {"met": met, "code": "height", "value": 3.0, "required": 2.0, "tolerance": 0.1}
+    conditions = [] if met else [high]
     return {"kind": "fixed", "first": "disk", "second": second, "conditions": conditions}
 
 
@@ -19,7 +20,7 @@ def test_names_that_count_on_are_a_row() -> None:
     assert check_lines(checks, "en") == [
         "disk - bolt_1 ... bolt_3, nut_1, nut_2, nut_4, cover, ring_09, ring_10: fixed to each other",
         "disk - bolt_4: fixed to each other",
-        "BROKEN: bolt_4 stands apart",
+        "BROKEN: bolt_4 stands 3 mm above disk, 2 mm is required",
         "drive disk, turns: disk = 2, pin_1 ... pin_3 = 0.5, pin_4 = 0.25",
     ]
 
