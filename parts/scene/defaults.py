@@ -20,7 +20,7 @@ Takes = Callable[[Table, str, object], bool]
 _KINDS: dict[str, Mapping[str, Any]] = {"parts": KINDS, "assemblies": RECIPES, "mates": MATES}
 _PLAIN: dict[str, type[Struct]] = {"boards": BoardSpec, "beds": BedSpec}
 # keys that a table has already in another form
-_INSTEAD = {
+INSTEAD = {
     "bore_diameter": ("bore",),
     "bore": ("bore_diameter",),
     "kerf": ("offset",),
@@ -58,7 +58,7 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
             if key not in names or (name == "exports" and key not in table and not takes(made, key, value)):
                 continue
             used.add(key)
-            if not any(k in table for k in (key, *_INSTEAD.get(key, ()))):
+            if not any(k in table for k in (key, *INSTEAD.get(key, ()))):
                 made[key] = value
                 origins[f"{place}.{key}"] = f"{place}: defaults.{key}"
         return made

@@ -10,6 +10,7 @@ from parts.base.refusal import SceneError, placed
 from parts.base.schema import converted, tried, unit_of
 from parts.base.texts import ENGLISH, Words, languages, words
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+from parts.scene.defaults import INSTEAD
 from parts.scene.kinds import assembly_kind
 from parts.scene.language import in_one
 
@@ -64,7 +65,9 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
         for key, own in tables.get(name, {}).items():
             if key in found and isinstance(own, dict):
                 origins |= {f"{name}.{key}.{changed}": f"{name}.{key}.{changed}" for changed in own}
-                own = {**found[key], **own}
+                # nor does what the recipe made hold a key in another form, as a bore is round or of a shape
+                kept_keys = {k: v for k, v in found[key].items() if not any(o in own for o in INSTEAD.get(k, ()))}
+                own = {**kept_keys, **own}
             found[key] = own
         tables[name] = found
     return tables, origins

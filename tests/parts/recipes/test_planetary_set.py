@@ -372,6 +372,23 @@ def test_a_key_of_a_part_that_the_recipe_made_is_told_with_the_assembly() -> Non
     assert told(made | {"parts": {"sun": {"module": 3.0}}}).key == "parts.sun.module"
 
 
+def test_what_a_scene_says_of_a_part_replaces_the_other_form_of_a_key() -> None:
+    # a sun for the shaft of a motor: its flat is 0.5 mm off the circle, so the bore lacks a segment
+    flat = {"shape": "D", "diameter": 8.0, "flat": 7.5}
+    made = {"assemblies": [{"kind": "planetary_set", "teeth": [12, 18, 48], "density": 2.0, "material": "own"}]}
+    plain = make_parts(scene_from_dict(made, "t", "t"), "t")[0]["sun"]
+    own = {"parts": {"sun": {"bore": flat, "material": "steel"}, "carrier": {"material": "steel"}}}
+    parts = make_parts(scene_from_dict(made | own, "t", "t"), "t")[0]
+    segment = 16 * math.acos(3.5 / 4) - 3.5 * math.sqrt(16 - 3.5**2)
+    volumes = [part.mass / part.density * 1e6 for part in (parts["sun"], plain) if part.mass and part.density]
+    assert volumes[0] - volumes[1] == pytest.approx(10.0 * segment, rel=1e-9)
+    keys = scene_from_dict(made | own, "t", "t").parts
+    assert [keys[name].density for name in ("sun", "carrier", "satellite")] == [None, None, 2.0]
+    # both forms in one table stay a refusal
+    both = {"parts": {"sun": {"bore": flat, "bore_diameter": 8.0}}}
+    assert told(made | both).key == "parts.sun.bore_diameter"
+
+
 @pytest.mark.parametrize("name", ["compound_two_stage", "practicum_example_1", "ferguson"])
 def test_the_expanded_scene_is_the_same_scene(name: str) -> None:
     text = built_in_scenes()[name].read_text("utf-8")
