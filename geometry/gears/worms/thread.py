@@ -22,11 +22,10 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
+from geometry.gears.worms.flank import InvoluteFlank
 from geometry.gears.worms.worm import LEAST_LAND, Worm
 
 Part = Literal["fillet", "radial", "flank", "rounding"]
-# slope of what is radial
-_RADIAL = 1e-5
 # how much larger a diameter quotient is tried
 _WIDER = (1.25, 1.5, 2.0, 3.0, 5.0, 10.0)
 
@@ -179,8 +178,8 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
         spoke = math.atan2(half(high) - tip_half, high - centre.real)
         rounding.append(("rounding", Arc(centre, tip_rounding, spoke, -spoke)))
     if low < begin:
-        if abs(float(flank.slope(begin * (1 + 1e-12)))) > _RADIAL:
-            # only the involute starts radially
+        # only the involute starts radially, what a huge wheel grinds but nearly so
+        if not isinstance(flank, InvoluteFlank):
             raise _by_quotient(worm, "worm_flank_above_root", lambda w: thread_of(w, tip_rounding))
         lines.append(("radial", Line(complex(low, half(begin)), complex(begin, half(begin)))))
     start = math.sqrt(max((max(low, begin) - flank.least_radius) * (max(low, begin) + flank.least_radius), 0.0))

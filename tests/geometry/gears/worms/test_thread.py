@@ -82,6 +82,8 @@ def test_a_worm_that_is_made_in_one_module_is_made_in_all(quotient: float, start
     [
         (Worm(5.0, 6, 6.0, "ZN1"), 0.0, "diameter_quotient"),
         (Worm(8.0, 8, 10.0, "ZK1"), 0.0, "diameter_quotient"),
+        # an involute but for 1e-6 of it: its flank begins radially but for 1e-5, in a cusp that has no curvature
+        (Worm(2.0, 6, 7.0, "ZK1", math.radians(25.0), wheel_diameter=1e6), 0.0, "diameter_quotient"),
         (Worm(5.0, 1, 10.0, fillet_coefficient=1.5), 0.0, "fillet_coefficient"),
         (Worm(5.0, 1, 10.0), 4.0, "tip_rounding"),
     ],
