@@ -64,6 +64,8 @@ REMOVED = Nearest(None)
 
 # so many of a list are told, of one that is longer than that
 _FEW, _LONG = 8, 10
+# letters of a value, and of a place, that are shown
+_SHORT, _PLACE = 60, 160
 # words of other books for our keys and values, to which no letter leads
 SYNONYMS = {word: ours.split(", ") for word, ours in rows_of(__file__, "synonyms")}
 
@@ -98,7 +100,7 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     """The one line that a user reads: file, key, value, what is wrong, what would work."""
     # a table is told by its key alone
     given = "" if refusal.value is None or isinstance(refusal.value, Struct) else f" = {_shown(refusal.value)}"
-    place = f"{refusal.source}: {refusal.key}{given}" if refusal.key else refusal.source or '""'
+    place = f"{refusal.source}: {_short(refusal.key, _PLACE)}{given}" if refusal.key else refusal.source or '""'
     line = f"{place}: {words(language).say(explained(refusal))}"
     return "".join(c if c.isprintable() else "?" for c in line)
 
@@ -115,7 +117,8 @@ def _nearest_few(refusal: SceneError) -> Message | None:
     if not isinstance(known, list | tuple) or len(known) <= _LONG:
         return None
     given = refusal.key.rpartition(".")[2] if refusal.code in ("unknown_key", "unknown_table") else refusal.value
-    word = str(given or (refusal.source if refusal.code == "no_such_scene" else "")).lower()
+    # no word of ours is as long as what stands there may be
+    word = str(given or (refusal.source if refusal.code == "no_such_scene" else ""))[:_SHORT].lower()
 
     def likeness(name: object) -> float:
         return difflib.SequenceMatcher(None, word, str(name).lower()).ratio()
@@ -156,7 +159,10 @@ def _following(why: Message, rulers: Rulers) -> Message:
         return message(
             "{why}; it follows from {keys}, the rest of the part from {others}", why=why, keys=own, others=others
         )
-    return message("{why}; it follows from {keys}", why=why, keys=own) if own else why
+    if own:
+        return message("{why}; it follows from {keys}", why=why, keys=own)
+    few = others and len(rulers.others) <= _FEW
+    return message("{why}; the part follows from {keys}", why=why, keys=others) if few else why
 
 
 def _remedy(nearest: Nearest, unit: str) -> Message:
@@ -195,8 +201,11 @@ def _told(number: object) -> object:
 
 
 def _shown(value: object) -> str:
-    text = " ".join(_typed(value).split())
-    return text if len(text) <= 60 else text[:57] + "..."
+    return _short(" ".join(_typed(value).split()), _SHORT)
+
+
+def _short(text: str, most: int) -> str:
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def _typed(value: object) -> str:

@@ -16,7 +16,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, format_value
 from geometry.base.nearest import nearest
-from parts.base.refusal import SceneError, in_unit, meant
+from parts.base.refusal import SYNONYMS, SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
 
 S = TypeVar("S", bound=Struct)
@@ -61,7 +61,9 @@ def as_written(table: object) -> Iterator[None]:
     try:
         yield
     except SceneError as refusal:
-        if refusal.value == 0 and isinstance(held := looked_up(table, list(map(str, steps_of(refusal.key)))), float):
+        # behind the place of a default stands where that is said
+        steps = map(str, steps_of(refusal.key.rpartition(": ")[2]))
+        if refusal.value == 0 and isinstance(held := looked_up(table, list(steps)), float):
             refusal.value = held
         raise
 
@@ -93,7 +95,9 @@ def _check_misspelt(name: str, table: Mapping[str, Any], source: str, place: str
     """Refuse a key that is none of those ``known`` but a missing one, misspelt: msgspec looks for that one first."""
     import difflib
 
-    for key in difflib.get_close_matches(name, [key for key in table if key not in known], 1, 0.7):
+    strange = [key for key in table if key not in known]
+    synonyms = [key for key in strange if name in SYNONYMS.get(key.lower(), ())]
+    for key in synonyms[:1] or difflib.get_close_matches(name, strange, 1, 0.7):
         raise SceneError(source, f"{place}.{key}", table[key], "unknown_key", Nearest(name, "meant"), known=[name])
 
 
@@ -130,7 +134,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
     allowed = _with_form(allowed, message, kind, keys, table)
     if wrong_type:
-        if isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
+        may_be_parted = {"float", "array"} & {*wrong_type.group(1).split(" | ")}
+        if may_be_parted and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
             return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
         if {*wrong_type.group(1).split(" | ")} - {"null"} == {"str"} and type(value) in (int, float):
             quoted = format_value(format_value(value))

@@ -257,7 +257,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         from parts.scene.toml_errors import slip, told_toml
 
-        if isinstance(error, tomllib.TOMLDecodeError) and (found := slip(text_of(raw_bytes), str(error))):
+        if not isinstance(error, RecursionError) and (found := slip(text_of(raw_bytes), str(error))):
             raise SceneError(source, "", None, found[0], None, **found[1]) from None
         code = "too_deep" if isinstance(error, RecursionError) else "not_toml"
         raise SceneError(source, "", None, code, None, why=told_toml(text_of(raw_bytes), str(error))) from None

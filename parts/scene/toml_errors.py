@@ -77,6 +77,11 @@ def _as_typed(what: str) -> str:
 
 def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
     """What people type who know no TOML, on the line that is none: its code and what the sentence of that needs."""
+    # Python's own words of a whole number that it does not read
+    if digits := re.search(r"limit \((\d+) digits\).* has (\d+) digits", why):
+        long = re.search(rf"\d[\d_]{{{digits[1]}}}", text)
+        place = text.count("\n", 0, long.start()) + 1 if long else 1
+        return "too_many_digits", {"line": place, "digits": digits[2], "most": digits[1]}
     if (at := re.search(r"line (\d+), column (\d+)\)$", why)) is None:
         # quotes that nothing closes up to the end
         rows = enumerate(text.split("\n"), 1)

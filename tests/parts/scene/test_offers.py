@@ -385,6 +385,18 @@ def test_what_a_recipe_makes_tells_the_keys_that_it_follows_from(
     assert f"it follows from {', '.join(refusal.rulers.own)}" in refusal.remedy
 
 
+def test_a_place_that_follows_from_no_key_tells_those_of_its_part() -> None:
+    # before: move it inside, of a hole in the middle
+    raw = tomllib.loads(built_in_scenes()["power_module_kinematics"].read_text("utf-8"))
+    refusal = refusal_of(put(raw, ("assemblies", 0, "platform_size"), 1e-6))
+    assert refusal is not None
+    assert (refusal.key, refusal.value) == ("parts.platform.holes[1].at", [0.0, 0.0])
+    assert refusal.rulers is not None
+    assert refusal.rulers.own == []
+    assert "platform_size" in refusal.rulers.others
+    assert f"the part follows from {', '.join(refusal.rulers.others)}" in refusal.remedy
+
+
 def test_what_was_typed_follows_from_nothing() -> None:
     raw = tomllib.loads(built_in_scenes()["lesson_5"].read_text("utf-8"))
     refusal = refusal_of(put(raw, ("assemblies", 0, "least_transmission_angle_deg"), 30.0))

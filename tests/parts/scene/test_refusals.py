@@ -13,6 +13,7 @@ import pytest
 from exporters.command.cli import main
 from exporters.production.build import build
 from exporters.production.plan import plan_build
+from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError, sentence
 from parts.scene.language import language_of
 from parts.scene.load import load_scene, scene_from_dict, scene_from_toml
@@ -132,7 +133,8 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"kind = spur_gear", "words stand in straight quotes"),
         (b'{"parts": {}}', "scenes are TOML, not JSON"),
         (b"a = " + b"[" * 5000 + b"]" * 5000, "nested too deeply"),
-        (b"a = 1" + b"0" * 5000, "TOML"),
+        # before: in Python's words, by which setting of its own it would be read
+        (b"a = 1" + b"0" * 5000, "line 1: a number has 5001 digits; at most 4300 are read"),
         (b"#" * 5_000_000, "larger than"),
         (b"[parts]\n", "at least one part"),
         (b"parts = 3\n", "like [parts.gear]"),
@@ -556,6 +558,46 @@ def test_a_number_in_quotes_with_a_comma_is_told_how_to_write_it() -> None:
         scene_from_toml(b'[parts.a]\nkind = "spur_gear"\nmodule = "2,5"\nnumber_of_teeth = 20\n', "s.toml", "s")
     assert (caught.value.key, caught.value.code) == ("parts.a.module", "comma_in_number")
     assert "2.5" in str(caught.value)
+
+
+def test_a_comma_in_a_whole_number_is_told_that_it_must_be_whole() -> None:
+    # before: write 2.5 with a point, which is refused again
+    with pytest.raises(SceneError) as caught:
+        scene_from_toml(b'[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = "2,5"\n', "s.toml", "s")
+    assert (caught.value.key, caught.value.code) == ("parts.a.number_of_teeth", "wrong_type_of")
+    assert "must be a whole number" in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [-0.0, -1e-300])
+def test_a_default_that_rounding_makes_0_is_told_as_it_was_written(value: float) -> None:
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
+    with pytest.raises(SceneError) as caught:
+        scene_from_dict({"defaults": {"face_width": value}, "parts": {"a": gear}}, "s.toml", "s")
+    assert caught.value.key == "parts.a: defaults.face_width"
+    assert str(caught.value).startswith(f"s.toml: parts.a: defaults.face_width = {value}: is not allowed")
+
+
+@pytest.mark.parametrize(("typed", "place", "ours"), [
+    ('[parts.a]\ntype = "spur_gear"\nmodule = 2.0\n', "parts.a.type", "kind"),
+    ('[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\nbore = { type = "D" }\n',
+     "parts.a.bore.type", "shape"),
+    ('[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n[[exports]]\ntype = "dxf"\n',
+     "exports[1].type", "format"),
+])  # fmt: skip
+def test_a_type_is_told_by_the_key_that_says_it(typed: str, place: str, ours: str) -> None:
+    # before: that kind, shape or format is missing
+    with pytest.raises(SceneError) as caught:
+        scene_from_toml(typed.encode(), "s.toml", "s")
+    assert (caught.value.key, caught.value.code) == (place, "unknown_key")
+    assert caught.value.nearest == Nearest(ours, "meant")
+
+
+def test_a_line_of_any_length_is_refused_in_a_short_one() -> None:
+    text = '[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n'
+    for long in (f"{text}{'x' * 100_000} = 1\n", text.replace("parts.a", f"parts.{'x' * 100_000}")):
+        with pytest.raises(SceneError) as caught:
+            scene_from_toml(long.encode(), "s.toml", "s")
+        assert len(str(caught.value)) < 500
 
 
 @pytest.mark.parametrize(
