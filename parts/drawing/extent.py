@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import partial
 
 import numpy as np
@@ -21,19 +21,24 @@ def farthest(curves: Iterable[Curve], way: complex) -> complex:
     """The farthest place of curves in a direction of length 1; the first of those that are equally far."""
     best = 0j
     reach = -math.inf
-    for curve in curves:
-        t = np.linspace(*curve.domain, _SAMPLES)
-        ahead = (curve.point(t) / way).real
-        # the seam of a closed curve is both of its ends
-        for k in np.flatnonzero(ahead >= ahead.max() - _SAME).tolist():
-            low, high = t[max(k - 1, 0)], t[min(k + 1, len(t) - 1)]
-            if _rate(curve, way, low) > 0 > _rate(curve, way, high):
-                at = bracketed_root(partial(_rate, curve, way), low, high).value
-            else:
-                at = t[k]
-            if ((point := complex(curve.point(at))) / way).real > reach + _SAME:
-                best, reach = point, (point / way).real
+    for point in (at for curve in curves for at in summits(curve, way)):
+        if (point / way).real > reach + _SAME:
+            best, reach = point, (point / way).real
     return best
+
+
+def summits(curve: Curve, way: complex) -> Iterator[complex]:
+    """The places of a curve that are no less far in a direction of length 1 than those beside them."""
+    t = np.linspace(*curve.domain, _SAMPLES)
+    ahead = (curve.point(t) / way).real
+    # the seam of a closed curve is both of its ends
+    beside = np.maximum(np.append(ahead[1:], -math.inf), np.insert(ahead[:-1], 0, -math.inf))
+    for k in np.flatnonzero(ahead >= beside - _SAME).tolist():
+        low, high = t[max(k - 1, 0)], t[min(k + 1, len(t) - 1)]
+        if _rate(curve, way, low) > 0 > _rate(curve, way, high):
+            yield complex(curve.point(bracketed_root(partial(_rate, curve, way), low, high).value))
+        else:
+            yield complex(curve.point(t[k]))
 
 
 def reach(profile: Profile, angle: float) -> float:

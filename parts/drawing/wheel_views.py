@@ -9,20 +9,21 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import start_point
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Label, Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.keyways import depth_deviation
 from geometry.solids.splines import SplineBore, StraightJoint
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
-from parts.drawing.extent import crossings, reach
+from parts.drawing.extent import crossings, farthest, reach, summits
 from parts.drawing.places import apart, circled, place_sizes
 from parts.drawing.revolved import Loop, below, block, closed, outlined, seen_edges
 from parts.drawing.working import (
@@ -48,8 +49,8 @@ _UP = math.pi / 2
 PITCH = "pitch"
 # mm, what is no length
 _NONE = 1e-9
-# mm within which a wall is an edge's own; the least turn of a corner that is seen, rad
-_NEAR, _SMOOTH = 1e-6, 1e-6
+# mm within which a wall is an edge's own; the least turn of a corner that is seen, rad; digits of heights
+_NEAR, _SMOOTH, _DIGITS = 1e-6, 1e-6, 6
 
 
 class Crown(Record):
@@ -195,17 +196,56 @@ def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[t
     if bore is None or upright:
         return bore_radii(bore), [*keyway_edges(bore, low, high)]
     profile = bore.profile().placed(Placement2(turn))
+    walls = reach(profile, _UP), reach(profile, -_UP)
+    return walls, [level((low, high), y) for y in _edges_behind(profile)]
+
+
+def _edges_behind(profile: Profile) -> list[float]:
+    """Heights of the corners behind the upright plane through the axis that no wall stands before."""
     curves = [segment.curve for segment in profile.segments()]
     heights = []
     for before, after in zip((curves[-1], *curves[:-1]), curves, strict=True):
         corner = start_point(after)
         ways = before.tangent(before.domain[1]), after.tangent(after.domain[0])
-        if corner.real < _NONE or abs(complex(ways[1] - ways[0])) < _SMOOTH:
-            continue
-        if not any(_NEAR < x < corner.real - _NEAR for x in crossings(profile, 1j * corner.imag, 1.0)):
+        if corner.real > _NONE and abs(complex(ways[1] - ways[0])) > _SMOOTH and _stands_free(profile, corner):
             heights.append(corner.imag)
-    walls = reach(profile, _UP), reach(profile, -_UP)
-    return walls, [level((low, high), y) for y in heights]
+    return heights
+
+
+def _stands_free(profile: Profile, at: complex) -> bool:
+    """Whether no wall stands between the upright plane through the axis and a place behind it."""
+    return not any(_NEAR < x < at.real - _NEAR for x in crossings(profile, 1j * at.imag, 1.0))
+
+
+def _beyond(wheel: Wheel, way: int) -> list[float]:
+    """Heights above or below the section of a rim that is not round at which edges behind it are seen, mm; none of
+    teeth between their outermost edge and the section.
+    """
+    outline, tip = wheel.outline, wheel.tip[way < 0]
+    if outline is None or wheel.stands or wheel.root is not None or wheel.grooves or wheel.bevel:
+        return []
+    tops = [at for s in outline.segments() for at in summits(s.curve, way * 1j) if at.real > -_NEAR]
+    heights = [way * y for y in _edges_behind(outline)] + [way * at.imag for at in tops if _stands_free(outline, at)]
+    toothed = any(s.label is Label.FLANK for s in outline.period)
+    found = sorted({round(y, _DIGITS) for y in heights if y > tip + _NEAR})
+    return found[-1:] if toothed else found
+
+
+def _rim_behind(wheel: Wheel, way: int) -> list[Line]:
+    """The lines of what is seen of a rim beyond its section, up or down."""
+    if not (heights := _beyond(wheel, way)):
+        return []
+    shape, far = wheel.shape, heights[-1]
+    low, high = complex(shape.chamfer_below), complex(shape.face_width - shape.chamfer_above)
+    ends = [0j, 1j * (far - shape.chamfer_below), low + 1j * far, high + 1j * far,
+            shape.face_width + 1j * (far - shape.chamfer_above), complex(shape.face_width)]  # fmt: skip
+    ends[0], ends[-1] = (
+        at + 1j * (wheel.tip[way < 0] - cut)
+        for at, cut in zip((0j, complex(shape.face_width)), (shape.chamfer_below, shape.chamfer_above), strict=True)
+    )
+    lines = [Line(a, b) for a, b in pairwise(ends) if abs(b - a) > _NONE]
+    lines += [Line(low + 1j * y, high + 1j * y) for y in heights[:-1]]
+    return [line if way > 0 else line.mirrored() for line in lines]
 
 
 def keyway_edges(bore: Bore | None, low: float, high: float) -> Iterator[Line]:
@@ -323,6 +363,7 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         hatched.append(tuple(placed(solid)))
         strokes += outlined(placed(loop))
         strokes += [(VISIBLE, line) for line in placed((*root, *seen_edges(loop, cut=True)))]
+        strokes += [(VISIBLE, line) for line in _rim_behind(wheel, way)]
         if wheel.reference is not None:
             axes += [level(row, way * wheel.reference) for row in wheel.rows()]
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
@@ -414,7 +455,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
             found.append(Size("hub.below", complex(at.hub[0], -shape.hub.diameter / 2), -1j * down, "below"))
     if isinstance(bore, RoundBore):
         diameter("bore_diameter", bore.diameter, at.hub[1], "right", wishes.bore)
-    found.append(Size("face_width", -1j * down, complex(width, -down), "below", "", wishes.width))
+    foot = -1j * max([down, *_beyond(wheel, -1)])
+    found.append(Size("face_width", foot, width + foot, "below", "", wishes.width))
     for name, cut, z, way in (("above", shape.chamfer_above, width, -1), ("below", shape.chamfer_below, 0.0, 1)):
         if cut and not (name == "below" and cut == shape.chamfer_above):
             ends = complex(z + way * cut, up), complex(z, up)
@@ -490,7 +532,7 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     for profile in holes.profiles():
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
     strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for group in circled(wheel.holes)]
-    axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
+    axes = (*_face_axes(wheel), *hole_axes(wheel.holes, turn))
     rounds = [*group_rounds(wheel.holes, turn, subject), *wheel.rounds]
     strokes += [(AXIS if one.name == PITCH else THIN, circle_of(one.radius)) for one in wheel.rounds]
     notes = []
@@ -503,6 +545,17 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
     sizes = apart_sizes(wheel.holes, turn, tip)
     return View(tuple(strokes), (), axes, sizes, tuple(rounds), tuple(notes), from_right=True)
+
+
+def _face_axes(wheel: Wheel) -> tuple[Line, Line]:
+    """The axes of a face: from side to side of it, and of the circles about it that are shown."""
+    rim = max(wheel.tip)
+    if wheel.stands or wheel.outline is None:
+        return axis_cross(rim)
+    least = max((one.radius for one in wheel.rounds), default=0.0)
+    curves = [s.curve for s in wheel.outline.segments()]
+    left, right, low, high = (max((farthest(curves, way) / way).real, least) for way in (-1, 1, -1j, 1j))
+    return Line(complex(-left), complex(right)), Line(-1j * low, 1j * high)
 
 
 def apart_sizes(holes: HubHoles, turn: float, outer: float) -> tuple[Size, ...]:

@@ -371,6 +371,32 @@ def test_the_section_of_a_cam_stands_in_projection_with_its_face(tmp_path: Path,
     assert len(signs) == (angle != 90.0)
 
 
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("name", ["geneva", "oval", "cam"])
+def test_what_stands_behind_the_section_of_a_wheel_that_is_not_round_is_seen_in_it(tmp_path: Path, name: str) -> None:
+    """GOST 2.305: the right half of the face in projection; sections ended at their plane, axes before the outline."""
+    phases = [
+        {"move": "rise", "angle_deg": 100.0, "law": "sine"},
+        {"move": "return_", "angle_deg": 260.0, "law": "sine"},
+    ]
+    part = PARTS[name] | ({"phases": phases, "bore": {"shape": "round", "diameter": 9.0}} if name == "cam" else {})
+    space = ezdxf.readfile(drawn(tmp_path, part)).modelspace()
+    paths = [[complex(p.x, p.y) for p in make_path(e).flattening(1e-4)] for e in space.query("*[layer=='OUTLINE']")]
+    axes = [e.dxf for e in space.query("LINE[layer=='CENTRE']")]
+    upright = max((e for e in axes if e.start.x == e.end.x), key=lambda e: abs(e.end.y - e.start.y))
+    lying = max((e for e in axes if e.start.y == e.end.y), key=lambda e: abs(e.end.x - e.start.x))
+    middle, right = upright.start.x, max(lying.start.x, lying.end.x)
+    face, section = ([p for path in paths for p in path if (p.real < right) == way] for way in (True, False))
+    behind = [p.imag for p in face if p.real >= middle]
+    assert max(p.imag for p in section) == pytest.approx(max(behind), abs=1e-3)
+    assert min(p.imag for p in section) == pytest.approx(min(behind), abs=1e-3)
+    hatched = [at.y for e in space.query("LINE[layer=='HATCH']") for at in (e.dxf.start, e.dxf.end)]
+    assert max(behind) - min(behind) > max(hatched) - min(hatched) + 0.2
+    assert min(upright.start.y, upright.end.y) < min(p.imag for p in face)
+    assert max(upright.start.y, upright.end.y) > max(p.imag for p in face)
+    assert min(lying.start.x, lying.end.x) < min(p.real for p in face) < max(p.real for p in face) < right
+
+
 def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
         jobs(PARTS["bearing"], paper="A4", scale="5:1")
