@@ -94,6 +94,22 @@ def pointed_tip(gear: SpurGear) -> Margin:
     return Margin.below("pointed_tip", 2 * gear.tip_radius, pointed_diameter(gear))
 
 
+def least_teeth_in_pair(ratio: float, addendum: float, pressure_angle: float) -> float:
+    """Teeth of the smaller gear below which the greater one's tip passes where its line of action begins; no shifts.
+
+    ``ratio`` >= 1; of helical gears the transverse angle and the addendum in transverse modules (Shigley 13-11, 13-22).
+    """
+    sine = math.sin(pressure_angle) ** 2
+    return 2 * addendum * (ratio + math.sqrt(ratio**2 + (1 + 2 * ratio) * sine)) / ((1 + 2 * ratio) * sine)
+
+
+def most_teeth_of_mate(number_of_teeth: int, addendum: float, pressure_angle: float) -> float | None:
+    """Teeth of the greatest mate of a gear by that limit; None: even a rack goes with it (Shigley 13-12, 13-23)."""
+    sine = math.sin(pressure_angle) ** 2
+    room = 2 * addendum - number_of_teeth * sine
+    return (number_of_teeth**2 * sine - 4 * addendum**2) / (2 * room) if room > 0 else None
+
+
 def tip_thickness(gear: SpurGear) -> float:
     """s_a: thickness of the tooth on the tip circle before its corners are broken, mm (an arc)."""
     angle = max(flank.polar_angle_at_radius(gear.tip_radius) for flank in _flanks(gear))

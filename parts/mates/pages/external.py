@@ -60,6 +60,7 @@ from parts.texts.findings import finding_of
 TOPIC = "gear-pair"
 OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"), ("kind", "crossed_helical_pair"))
 
+_SHIGLEY = "Shigley, 13-7"
 _SHIFTS = Meta(description="profile shifts by a table: Kudryavtsev's of the practicum, or least wear of the guidelines")
 _CIRCUMFERENTIAL_BACKLASH = mm("wanted backlash, arc on the working circle", least=0, most=1000)
 
@@ -315,12 +316,37 @@ def _page(asked: Asked) -> Sheet:
         for index, gear in enumerate((one, two), 1):
             if gear.cutter is None:
                 rule_step(page, gear, index)
+    _interference(page, asked)
     limit_steps(page, pair, pair.gears, asked.helical)
     for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
         page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]
     if is_practicums:
         page.note("practicum (3.4) prints alpha_w on its left side for a_w")
     return page
+
+
+def _interference(page: Sheet, asked: Asked) -> None:
+    """How few teeth go with a mate of this ratio, and with how many the smaller gear goes; of gears without shifts."""
+    keys, (one, two) = asked.keys, asked.pair.gears
+    specs = (keys.first, keys.second)
+    if keys.working_centre_distance is not None or keys.tip_shortening_coefficient is not None:
+        return
+    if any(spec.profile_shift_coefficient or spec.tip_diameter is not None for spec in specs):
+        return
+    small, great = (1, 2) if one.number_of_teeth <= two.number_of_teeth else (2, 1)
+    teeth, mate = (one, two)[small - 1].number_of_teeth, (one, two)[great - 1]
+    ratio, height, angle = mate.number_of_teeth / teeth, mate.rack.addendum, one.rack.pressure_angle
+    u = "{u}" if small == 1 else "(1 / {u})"
+    k = f"{{h_a{great}}}" + (" * cos({beta})" if asked.helical.angle else "")
+    square = f"({k})**2" if asked.helical.angle else f"{k}**2"
+    sine = f"(1 + 2 * {u}) * sin({{alpha}})**2"
+    formula = f"2 * {k} * ({u} + sqrt({u}**2 + {sine})) / ({sine})"
+    page.add("least_teeth_in_pair", limits.least_teeth_in_pair(ratio, height, angle), formula, _SHIGLEY, small)
+    most = limits.most_teeth_of_mate(teeth, height, angle)
+    if most is not None and most >= teeth:
+        formula = f"({{z{small}}}**2 * sin({{alpha}})**2 - 4 * {square})"
+        formula += f" / (4 * {k} - 2 * {{z{small}}} * sin({{alpha}})**2)"
+        page.add("most_teeth_of_mate", most, formula, _SHIGLEY, great)
 
 
 def _mesh(page: Sheet, asked: Asked) -> None:

@@ -21,7 +21,7 @@ _MOST = 1e5
 _CODE = "last four digits of a record-book number: chooses assignment and rows"
 _BESIDE = "how far the guide passes to the left of O3, of O1 where there is no lever"
 _SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
-_MASS = "AS2 / AB: centre of mass of the rod AB, whose path the picture then has"
+_MASS = "AS2 / AB: centre of mass, or any point, of the rod AB: its velocity, acceleration, and its path in the picture"
 
 _MASSES = "substitute masses of the links at A, B, C, D: point_masses.D=12; A is of the crank, B and C of link 3"
 _LINK_MASSES = "masses of links by their numbers, beside those at points: masses.2=12"

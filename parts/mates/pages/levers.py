@@ -241,6 +241,32 @@ class _Page:
         for link, name in (("2", "first_rod_angle_deg"), ("3", "lever_angle_deg"), ("4", "second_rod_angle_deg")):
             if link in at.links:
                 self.page.add(name, math.degrees(at.angle(link)))
+        self._transmission()
+
+    def _transmission(self) -> None:
+        """The angle between the rod AB and the lever, or the normal of its guide, here and where it is the least."""
+        levers, keys, page = self.levers, self.keys, self.page
+        group, crank = levers.first, levers.crank
+        if isinstance(group, Stone):
+            return
+        if isinstance(group, Slider):
+            height, cosines = keys.guide_height, "abs({h} - {l_1} * sin({phi_1})) / {l_2}"
+            here, least = height - crank * math.sin(self.start - group.angle), abs(height) + crank
+            unit, formula = group.rod, "" if keys.guide_angle_deg else cosines
+            worst = "(abs({h}) + {l_1}) / {l_2}"
+        else:
+            frame, links, unit = abs(group.pivot), group.rod**2 + group.rocker**2, 2 * group.rod * group.rocker
+            aside = math.cos(self.start - cmath.phase(group.pivot))
+            here = links - frame**2 - crank**2 + 2 * frame * crank * aside
+            ends = [links - (frame + sign * crank) ** 2 for sign in (-1, 1)]
+            sign, least = max(zip("-+", map(abs, ends), strict=True), key=lambda end: end[1])
+            squares, sides = "{l_2}**2 + {l_3}**2", "(2 * {l_2} * {l_3})"
+            turned = "2 * {l_0} * {l_1} * cos({phi_1} - {gamma_0})"
+            formula = f"abs({squares} - {{l_0}}**2 - {{l_1}}**2 + {turned}) / {sides}"
+            worst = f"abs({squares} - ({{l_0}} {sign} {{l_1}})**2) / {sides}"
+        angles = [math.degrees(math.acos(min(abs(x) / unit, 1.0))) for x in (here, least)]
+        page.add("transmission_angle_deg", angles[0], f"arccos({formula})" if formula else "")
+        page.add("joint_transmission_angle_deg", angles[1], f"arccos({worst})")
 
     def _velocities(self) -> None:
         page, at = self.page, self.at
@@ -266,6 +292,21 @@ class _Page:
             self._relative("4", "D", "C", "l_4")
             if "5" in at.links:
                 self._link("5", "1000 * {V_D} / {l_5}")
+        self._of_centres("point_velocity", "V", 1)
+
+    def _of_centres(self, name: str, symbol: str, order: int) -> None:
+        """A rate of the centre of mass of the rod AB, or of any other point of it, as the user tells it."""
+        if self.keys.mass_point is None:
+            return
+        series = frames(self.levers, self.at)["2"].point(complex(self.keys.mass_point * self._rod))
+        of = message("point {name}", name="S2")
+        self.page.add(name, _metres(order * series[order]), symbol=f"{symbol}_S2", of=of)
+
+    @property
+    def _rod(self) -> float:
+        """The rod AB, mm; none goes to a stone."""
+        assert not isinstance(self.levers.first, Stone)
+        return self.levers.first.rod
 
     def _turning(self, link: str) -> tuple[float, float]:
         """Sizes of a link's angular velocity, rad/s, and acceleration, rad/s^2."""
@@ -308,6 +349,9 @@ class _Page:
             if isinstance(self.levers.second, Rods):
                 self._about("5", N_("D about O5"), self.levers.second.rocker, "l_5")
             self._accelerated("D")
+        if self.forces is None:
+            # forces have it beside the mass
+            self._of_centres("point_acceleration", "a", 2)
 
     def _accelerated(self, name: str, formula: str = "") -> None:
         size, of = _metres(self.at.acceleration(name)), message("point {name}", name=name)
@@ -545,8 +589,8 @@ class _Page:
             if self.forces is None
             else {body.link: body.centre for name, body in self.forces.named if name.isdigit()}
         )
-        if self.keys.mass_point is not None and not isinstance(self.levers.first, Stone):
-            told["2"] = complex(self.keys.mass_point * self.levers.first.rod)
+        if self.keys.mass_point is not None:
+            told["2"] = complex(self.keys.mass_point * self._rod)
         moving = frames(self.levers, at)
         return {
             f"S{link}": moving[link].point(told[link])[0] for link in ("2", "4") if link in at.links and link in told

@@ -103,6 +103,8 @@ SHEETS = [
      "thinning_method=deeper_cut"),
     ("gear-pair", "module=2", "first.number_of_teeth=150", "second.number_of_teeth=8", "tip_chamfer=0.1"),
     ("gear-pair", *PAIR, "first.cutter.number_of_teeth=20", "first.profile_shift_coefficient=0.4"),
+    ("gear-pair", "module=1", "first.number_of_teeth=30", "second.number_of_teeth=11", "helix_angle_deg=30"),
+    ("gear-pair", "module=1", "first.number_of_teeth=16", "second.number_of_teeth=40"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
      "working_centre_distance=51.5"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=31", "module=2", "helix_angle_deg=25",

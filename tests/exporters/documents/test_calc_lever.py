@@ -88,6 +88,49 @@ def test_the_ways_to_and_fro_take_their_times(keys: tuple[str, ...], between: fl
         assert row[last] == pytest.approx(0, abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    "keys",
+    [
+        ("first=rods", "crank_length=40", "coupler_length=120", "lever_length=80", "frame_length=100"),
+        ("first=rods", "crank_length=40", "coupler_length=90", "lever_length=110", "frame_length=100", "first_side=-1",
+         "frame_angle_deg=70"),
+        ("first=rods", "crank_length=100", "coupler_length=90", "lever_length=110", "frame_length=40"),
+        ("first=slider", "crank_length=50", "coupler_length=200", "guide_height=-30", "guide_angle_deg=25"),
+        ("first=slider", "crank_length=50", "coupler_length=200", "guide_height=30"),
+    ],
+)  # fmt: skip
+def test_the_transmission_angle_is_that_between_the_links(keys: tuple[str, ...]) -> None:
+    data = calculated(*keys, "start_angle_deg=40", "positions=720", "mass_point=0.25")
+    normal = 90 + next((float(key.partition("=")[2]) for key in keys if "guide_angle" in key), 0)
+    told = [(row["φ_2"] - row.get("φ_3", normal)) % 180 for row in data["positions"]]
+    angles = [min(angle, 180 - angle) for angle in told]
+    assert data["values"]["transmission_angle_deg"] == pytest.approx(angles[0], rel=1e-9)
+    least = data["values"]["joint_transmission_angle_deg"]
+    assert least <= min(angles) + 1e-9
+    assert least == pytest.approx(min(angles), abs=0.3)
+
+
+def test_a_point_of_the_rod_has_its_velocity_and_acceleration() -> None:
+    """Differences of its places: the crank of Khurmi 8.1 and a four-bar linkage that speeds up."""
+    for keys in (
+        ("first=slider", "crank_length=150", "coupler_length=600"),
+        ("first=rods", "crank_length=40", "coupler_length=120", "lever_length=80", "frame_length=100"),
+    ):
+        step, crank = 1e-3, float(keys[1].partition("=")[2])
+        rates = "speed=1", "acceleration=0.5", "positions=2", "mass_point=0.3"
+
+        def place(time: float, keys: tuple[str, ...] = keys, crank: float = crank) -> complex:
+            turned = math.radians(40) + time + 0.25 * time**2
+            row = calculated(*keys, f"start_angle_deg={math.degrees(turned)!r}", "positions=2")["positions"][0]
+            rod = float(keys[2].partition("=")[2]) * cmath.exp(1j * math.radians(row["φ_2"]))
+            return cmath.rect(crank, turned) + 0.3 * rod
+
+        before, here, after = (place(time) for time in (-step, 0, step))
+        data = calculated(*keys, "start_angle_deg=40", *rates)
+        assert value(data, "V_S2") == pytest.approx(abs(after - before) / (2000 * step), rel=1e-5)
+        assert value(data, "a_S2") == pytest.approx(abs(after - 2 * here + before) / (1000 * step**2), rel=1e-4)
+
+
 def test_a_crank_turns_by_its_speed_in_rpm_too() -> None:
     """Khurmi 8.4: crank 150, rod 600 mm, 300 rpm, 45 degrees from the inner dead point: 4 m/s, rod 5.67 rad/s."""
     row = calculated("first=slider", "crank_length=150", "coupler_length=600", "speed_rpm=300", "start_angle_deg=45")
