@@ -113,7 +113,8 @@ class PlateOutline(Record):
         edges = moved_edges(self.edges, offset)
         outer = Profile(tuple(Segment(e, Label.BODY) for e in edges))
         holes = tuple(h.profile(offset) for h in self.holes)
-        _refuse_crossing(edges)
+        if crosses_itself(edges):
+            raise GeometryError("boundary_crosses_itself")
         clear = _clearances(edges, self.holes, offset)
         # where they touch on purpose rounding may decide
         if clear.size and clear.min() < -_TOUCH * outer.reach():
@@ -288,8 +289,19 @@ def _off_point(points: Complex, start: Complex, end: Complex) -> Real:
     return np.abs(points - start - np.clip(share, 0.0, 1.0) * way)
 
 
-def _refuse_crossing(edges: Sequence[Edge]) -> None:
-    """Refuse a boundary that crosses itself: two edges that meet within both at an angle."""
+def meets_itself(edges: Sequence[Edge]) -> bool:
+    """Whether two edges of a closed chain meet anywhere but in the corner that they share."""
+    corners = np.array([start_point(e) for e in edges])
+    near, count = _AT_END * float(np.abs(corners).max()), len(edges)
+    for k, edge in enumerate(edges):
+        others = np.delete(corners, [k, (k + 1) % count])
+        if others.size and float(_off_edge(edge, others, others).min()) <= near:
+            return True
+    return crosses_itself(edges)
+
+
+def crosses_itself(edges: Sequence[Edge]) -> bool:
+    """Whether two edges of a boundary meet within both at an angle."""
     low, high = np.array([_box(e) for e in edges]).T
     size = float(np.abs([low, high]).max())
     beside = (low.real[:, None] <= high.real) & (high.real[:, None] >= low.real)
@@ -299,7 +311,8 @@ def _refuse_crossing(edges: Sequence[Edge]) -> None:
         for place in _crossings(one, two):
             first, second = (_way_within(e, place, _AT_END * size) for e in (one, two))
             if first is not None and second is not None and abs((first.conjugate() * second).imag) > _ANGLE:
-                raise GeometryError("boundary_crosses_itself")
+                return True
+    return False
 
 
 def _box(edge: Edge) -> tuple[complex, complex]:

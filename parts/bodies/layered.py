@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import TYPE_CHECKING, Annotated
 
@@ -44,6 +45,14 @@ _ARC = part_mm(
 )
 
 
+_COUNT = Meta(
+    ge=1,
+    le=1000,
+    description="how often its corners stand about the axis, counter-clockwise: those of one tooth make a wheel",
+    examples=[16],
+)
+
+
 class OutlinePoint(Struct, forbid_unknown_fields=True, kw_only=True):
     """A corner of an outline of lines and arcs."""
 
@@ -56,6 +65,7 @@ class OutlineTable(Struct, forbid_unknown_fields=True):
     """An outline of lines and arcs, none of these more than half a circle."""
 
     points: Annotated[list[OutlinePoint], Meta(min_length=2, max_length=1000, description="its corners, either way")]
+    count: Annotated[int, _COUNT] = 1
 
 
 class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -68,6 +78,8 @@ class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     outlines: Annotated[list[OutlineTable], Meta(max_length=1000)] = field(default_factory=list)
 
 
+# corners of one outline, those that are turned on too
+_MOST_POINTS = 2000
 # kinds of contours of a layer, in the order in which they are numbered
 _CONTOURS = ("circles", "polygons", "slots", "outlines")
 # of a contour: its layer, which of its contours it is, from 0 on, and its key
@@ -90,6 +102,14 @@ _HAND = [
     },
 ]  # fmt: skip
 
+_RATCHET = [
+    {
+        "thickness": 5.0,
+        "outlines": [{"points": [{"x": 20.0, "y": 0.0}, {"x": 16.0, "y": 0.0}], "count": 16}],
+        "circles": [{"diameter": 6.0}],
+    },
+]
+
 _LAYERS = Meta(
     min_length=1,
     max_length=100,
@@ -103,7 +123,11 @@ class LayeredSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="layered"):
     layers: Annotated[
         list[LayerTable],
         _LAYERS,
-        start(_BOX, (_HAND, N_("the hand of a clock: flat, of lines and arcs, for the laser"))),
+        start(
+            _BOX,
+            (_HAND, N_("the hand of a clock: flat, of lines and arcs, for the laser")),
+            (_RATCHET, N_("a ratchet wheel: two corners of one tooth, sixteen times")),
+        ),
     ]
 
 
@@ -197,7 +221,7 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
     """
     from geometry.curves.line_arc import Arc
     from geometry.solids.layers import Contour
-    from geometry.solids.plate import belt, rounded
+    from geometry.solids.plate import belt, meets_itself, rounded
 
     found = []
     for circle in table.circles:
@@ -212,30 +236,40 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
         except (GeometryError, ZeroDivisionError) as error:
             name = f"{place}.polygons[{number}].corner_radius"
             raise ParameterError(name, polygon.corner_radius, "roundings_meet") from error
+        if meets_itself(found[-1].edges):
+            raise ParameterError(f"{place}.polygons[{number}].points", len(corners), "boundary_crosses_itself")
     for number, slot in enumerate(table.slots, 1):
         if slot.start == slot.end:
             raise ParameterError(f"{place}.slots[{number}].end", list(slot.end), "slot_ends_at_start")
         ends = ((complex(*at), slot.width / 2) for at in (slot.start, slot.end))
         found.append(Contour(belt(*ends)))
-    found += [_outline(table.points, f"{place}.outlines[{k}]") for k, table in enumerate(table.outlines, 1)]
+    for number, outline in enumerate(table.outlines, 1):
+        here = f"{place}.outlines[{number}]"
+        found.append(_outline(outline.points, outline.count, here))
+        if meets_itself(found[-1].edges):
+            key, value = ("points", len(outline.points)) if outline.count == 1 else ("count", outline.count)
+            raise ParameterError(f"{here}.{key}", value, "boundary_crosses_itself")
     return found
 
 
-def _outline(points: list[OutlinePoint], place: str) -> Contour:
-    """An outline as a contour.
+def _outline(points: list[OutlinePoint], count: int, place: str) -> Contour:
+    """An outline as a contour, its corners so often about the axis.
 
     Raises
     ------
     ParameterError
-        An arc shorter than its chord, or no outline: its ways enclose nothing.
+        An arc shorter than its chord, or no outline: its ways enclose nothing; or too many corners.
     """
     from geometry.curves.line_arc import Line, arc_between
     from geometry.solids.layers import Contour
 
-    corners = [complex(p.x, p.y) for p in points]
-    ways = [
-        (a, b, p.arc, k) for k, (a, b, p) in enumerate(zip(corners, [*corners[1:], corners[0]], points, strict=True), 1)
-    ]
+    if len(points) * count > _MOST_POINTS:
+        most = limit(_MOST_POINTS // len(points), count)
+        raise ParameterError(f"{place}.count", count, "outline_of_too_many_points", most, most=_MOST_POINTS)
+    turns = [cmath.rect(1.0, math.tau * k / count) for k in range(count)]
+    corners = [turn * complex(p.x, p.y) for turn in turns for p in points]
+    arcs = [(p.arc, k) for _ in turns for k, p in enumerate(points, 1)]
+    ways = [(a, b, *arc) for a, b, arc in zip(corners, [*corners[1:], corners[0]], arcs, strict=True)]
     # the polygon of the corners tells which way it runs; of two corners it is counter-clockwise
     area = math.fsum((a.conjugate() * b).imag / 2 for a, b, *_ in ways)
     if area < 0:

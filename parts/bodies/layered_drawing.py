@@ -22,7 +22,7 @@ from parts.drawing.places import place_sizes, spans
 from parts.drawing.revolved import block
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import AXIS, VISIBLE, Cut, Note, PartDrawing, Round, Size, Subject, View, requirements
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import counted_words, sheet_words
 
 # mm that are none; parts of the size: beside a place that is looked at, what jumps there; digits of places
 _NONE, _BESIDE, _JUMP, _DIGITS = 1e-9, 1e-7, 1e-5, 9
@@ -144,6 +144,9 @@ def _across(
         ),
         *_first_ones(patterns, high_x, {c.imag for c in places}),
     )
+    turned_on = [one for one, _ in new if isinstance(one, OutlineTable) and one.count > 1]
+    notes += tuple(Note(complex(one.points[0].x, one.points[0].y), _turned_on(one.count, subject.language))
+                   for one in turned_on)  # fmt: skip
     rounds = (
         *diameters(solid, subject.language, solid=True),
         *diameters(holes, subject.language),
@@ -156,6 +159,12 @@ def _across(
     )
     hatched = tuple(contour.edges for contour in contours) if title else ()
     return View(strokes, hatched, tuple(axes), sizes, rounds, notes, title, cuts=cuts)
+
+
+def _turned_on(count: int, language: str) -> str:
+    """Of an outline whose corners stand about the axis: how often, and in which step."""
+    words = counted_words(language, "places_of", count), sheet_words(language, "step_of", step=f"360°/{count}")
+    return "".join(words).strip()
 
 
 def _places(table: _Table) -> Iterable[tuple[float, float]]:

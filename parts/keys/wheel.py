@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class WebTable(Struct, forbid_unknown_fields=True):
-    """The thin disk between rim and hub."""
+    """The thin disk between rim and hub; without a hub, at one face, the floor of a bearing's seat."""
 
     thickness: Annotated[float, mm("thickness of the web along the axis", above=0, most=10_000, example=3.0)]
     rim_diameter: Annotated[float, part_mm("inner diameter of the rim", above=0, example=36.0)]

@@ -491,3 +491,11 @@ def test_slots_in_equal_steps_lie_on_each_other_by_both_ends() -> None:
 def test_what_is_told_of_bodies_is_in_the_scene() -> None:
     assert refused(scene_of(DRILLED)) is None
     assert refused(scene_of(SHAFT)) is None
+
+
+def test_corners_that_are_turned_on_are_told_once_with_their_step() -> None:
+    tooth = {"points": [{"x": 20.0, "y": 0.0}, {"x": 16.0, "y": 1.5}], "count": 16}
+    (view,) = drawing_of({"kind": "layered", "layers": [{"thickness": 5.0, "outlines": [tooth]}]}).views
+    assert sorted(value for value, _ in spans(view).values()) == [1.5, 16.0, 20.0]
+    assert [(n.at, n.text) for n in view.notes if "16" in n.text] == [(20.0, "(16 places) (step 360°/16)")]
+    assert len(straight(view)) == 32

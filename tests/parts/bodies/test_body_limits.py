@@ -356,6 +356,50 @@ def test_outlines_that_enclose_nothing_and_arcs_below_their_chords_are_refused()
     assert (found.key, found.code) == ("parts.p.layers[1]", "layer_of_nothing")
 
 
+def turned_on(count: int, *rows: tuple[float, ...]) -> dict[str, Any]:
+    return layer(outlines=[{"points": points(*rows), "count": count}])
+
+
+def test_corners_stand_about_the_axis_as_often_as_they_are_told_to() -> None:
+    """A ratchet wheel of two corners a tooth is so many triangles; corners with arcs make what is typed in full."""
+    for count in (3, 16):
+        teeth = count * 20 * 16 * math.sin(math.tau / count) / 2
+        assert volume(turned_on(count, (20, 0), (16, 0))) == pytest.approx(2 * teeth, rel=1e-12)
+        assert volume(turned_on(count, (16, 0), (20, 0))) == pytest.approx(2 * teeth, rel=1e-12)
+    tooth = ((10.0, 0.0, -2.0), (9.0, 3.0, 4.0), (8.0, 5.0))
+    (c, s) = math.cos(math.tau / 5), math.sin(math.tau / 5)
+    rows = list(tooth)
+    for _ in range(4):
+        rows += [(x * c - y * s, x * s + y * c, *arc) for x, y, *arc in rows[-3:]]
+    full = volume(layer(outlines=[{"points": points(*rows)}]))
+    assert volume(turned_on(5, *tooth)) == pytest.approx(full, rel=1e-12)
+
+
+def test_an_outline_that_meets_itself_is_refused_by_its_key() -> None:
+    """``check`` passed it, and files blamed their tolerance."""
+    bow, touching = ((0, 0), (10, 10), (10, 0), (0, 9)), ((0, 0), (10, 0), (10, 10), (5, 0), (0, 10))
+    twice = ((0, 0), (10, 0), (5, 5), (10, 10), (0, 10), (5, 5))
+    for rows in (bow, bow[::-1], touching, twice):
+        found = refused(scene_of(layer(outlines=[{"points": points(*rows)}])))
+        assert found is not None
+        assert (found.key, found.code) == (f"parts.p.{NOTHING}", "boundary_crosses_itself")
+        found = refused(scene_of(layer(polygons=[{"points": [list(row) for row in rows]}])))
+        assert found is not None
+        assert (found.key, found.code) == ("parts.p.layers[1].polygons[1].points", "boundary_crosses_itself")
+    # a tooth that is fifty degrees long goes about the axis seven times, not eight
+    end = 19 * math.cos(math.radians(50)), 19 * math.sin(math.radians(50))
+    assert refused(scene_of(turned_on(7, (20, 0), (16, 0), end))) is None
+    found = refused(scene_of(turned_on(8, (20, 0), (16, 0), end)))
+    assert found is not None
+    assert (found.key, found.code) == ("parts.p.layers[1].outlines[1].count", "boundary_crosses_itself")
+
+
+def test_corners_that_are_too_many_are_told_how_often_they_may_stand() -> None:
+    count = "parts.p.layers[1].outlines[1].count"
+    raw = scene_of(turned_on(700, (20, 0), (16, 0), (16.1, 0.1)))
+    check_refused(raw, count, 700, "outline_of_too_many_points", 666, most=2000)
+
+
 def test_a_side_that_is_too_short_for_its_axles_is_told_how_long_it_has_to_be() -> None:
     """A hole of 6 mm at 28 from the middle: 62 and two walls of 0.05; the plate that grows holds it as it is."""
     wheel = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20, "bore_diameter": 5.0}

@@ -11,6 +11,7 @@ import pytest
 
 from exporters.command.cli import main
 from exporters.command.new import new_scene
+from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
 from tests.parts.limits import check_limit, refused, scene_of, with_key
@@ -58,14 +59,26 @@ def test_a_volume_is_that_of_its_layers() -> None:
     assert mesh.volume == pytest.approx(wanted, rel=2e-4)
 
 
+def shown(number: int) -> Part:
+    """The part that ``new`` shows in place of its own, by its number."""
+    text = new_scene("layered")
+    rows = re.findall(r"^# (layers = .*?)  # \.\.\. or this", text, re.MULTILINE)
+    used = re.sub(r"^layers = .*$", rows[number], text, flags=re.MULTILINE)
+    return make_parts(scene_from_toml(used.encode(), "t", "t"), "t")[0]["gear"]
+
+
 def test_the_hand_that_new_shows_is_a_flat_part_of_lines_and_arcs() -> None:
     """A trapezium with half a disk at each end, less a slot and a hole; what an outline takes was not shown."""
-    text = new_scene("layered")
-    (shown,) = re.findall(r"^# (layers = .*?)  # \.\.\. or this", text, re.MULTILINE)
-    used = re.sub(r"^layers = .*$", shown, text, flags=re.MULTILINE)
-    part = make_parts(scene_from_toml(used.encode(), "t", "t"), "t")[0]["gear"]
+    part = shown(0)
     area = 60 * (8 + 2) / 2 + (disk(8) + disk(2)) / 2 - (15 * 2 + disk(2)) - disk(3)
     assert part.made_by.moments(part.body(0.0)).volume == pytest.approx(3 * area, rel=1e-12)
+    assert part.is_plate
+
+
+def test_the_ratchet_wheel_that_new_shows_has_sixteen_teeth() -> None:
+    part = shown(1)
+    area = 16 * 20 * 16 * math.sin(math.pi / 8) / 2 - disk(6)
+    assert part.made_by.moments(part.body(0.0)).volume == pytest.approx(5 * area, rel=1e-12)
     assert part.is_plate
 
 
