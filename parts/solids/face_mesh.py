@@ -427,14 +427,18 @@ class _Mesher:
         template = patch.rows(which)
         bends, key = Bends(template), _key(template.poles)
         sag = self.passed.get(key, self.tolerance)
-        along = sides[0][0][1:-1], 1 - sides[2][0][-2:0:-1]
+        along, across = ((sides[k][0][1:-1], 1 - sides[k + 2][0][-2:0:-1]) for k in (0, 1))
         for _ in range(_FINER):
             t, rows = bends.rows(sag)
             if self.count + 2 * len(ring) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
                 raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
-            # where rows of unlike lengths fold, all are as fine as the finest of them and of both sides
-            for tried in (rows, [max((*rows, *along), key=len)] * len(rows)):
-                triangles, inner = rows_between(grid, t, tried, rising=bends.rising)
+            # where rows of unlike lengths fold, all are as fine as the finest of them and of both sides, then as many
+            # as the sides they run between have chords; where that is no better, fewer do
+            levels = max((t, *across), key=len)
+            near = [rows[k] for k in np.abs(levels[:, None] - t).argmin(axis=1)]
+            even = t, [max((*rows, *along), key=len)] * len(t)
+            for tried in ((t, rows), even, (levels, near), even):
+                triangles, inner = rows_between(grid, *tried, rising=bends.rising)
                 table = np.concatenate([grid.ring(), inner])
                 at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
                 table, at, apart = _parted(grid, table, at, triangles)

@@ -179,6 +179,24 @@ def test_a_worm_wheel_has_triangles_where_it_is_bent() -> None:
     assert lone == 0
 
 
+def test_fillets_beside_a_bowed_edge_are_not_folded() -> None:
+    """The joint of flank and fillet bows as far as its fillet is wide: chords of coarse rows lay beyond it."""
+    gear = {"kind": "face_gear", "module": 2.0, "number_of_teeth": 60, "pinion_number_of_teeth": 40}
+    keys = {**gear, "pressure_angle_deg": 14.5}
+    body = make_parts(scene_from_dict({"parts": {"gear": keys}}, "s", "s"), "s")[0]["gear"].body(0.0)
+    made = faced_mesh(body, 0.02)
+    mesh = ReadMesh(made.vertices, made.geometry)
+    assert topology_failures(mesh) == []
+    # edges of each triangle as they run, and the same against it: its neighbours' normals
+    normals = doubled_normals(mesh.faces())
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    ways = made.geometry[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    forth, back = (np.lexsort(side.T) for side in (ways, ways[:, ::-1]))
+    # no edge of the part is sharper than one of its ends'
+    assert np.sum(normals[forth // 3] * normals[back // 3], axis=1).min() > -0.2
+    assert mesh_deviation(mesh, body)[0] <= made.max_error
+
+
 @pytest.mark.parametrize(("scene", "part"), [("bevel_pair", "pinion"), ("worm_set_print", "wheel")])
 def test_no_triangle_is_chosen_by_last_bits(scene: str, part: str) -> None:
     """Another machine rounds coordinates otherwise: the triangles are the same, the volume too."""
