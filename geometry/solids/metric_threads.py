@@ -58,6 +58,21 @@ class MetricThread(Record):
         """d3: the root is rounded H / 6 from the corner of the triangle (ISO 68-1)."""
         return self.diameter - 17 / 12 * self.height
 
+    @property
+    def stress_area(self) -> float:
+        """A_s, mm^2: of a rod as strong, on the mean of pitch and root diameter (ISO 898-1)."""
+        return math.pi / 16 * (self.pitch_diameter + self.root_diameter) ** 2
+
+    @property
+    def root_area(self) -> float:
+        """A_3, mm^2, on the root diameter."""
+        return math.pi / 4 * self.root_diameter**2
+
+    @property
+    def lead_angle(self) -> float:
+        """On the pitch cylinder, rad."""
+        return math.atan(self.pitch / (math.pi * self.pitch_diameter))
+
     def limits(self) -> ThreadLimits | None:
         """Those of the classes 6g and 6h by the formulas of ISO 965-1; None of another class."""
         low, high = next((a, b) for a, b in pairwise(_STEPS) if a < self.diameter <= b)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from msgspec import Struct
 
 from parts.base.texts import N_
@@ -32,6 +34,9 @@ def sheet(keys: ThreadKeys) -> Sheet:
     page.add("thread_pitch_diameter", thread.pitch_diameter, "{d} - 3 / 4 * {H}", "ISO 724")
     page.add("thread_minor_diameter", thread.minor_diameter, "{d} - 5 / 4 * {H}", "ISO 724")
     page.add("thread_root_diameter", thread.root_diameter, "{d} - 17 / 12 * {H}", "ISO 68-1")
+    page.add("thread_lead_angle_deg", math.degrees(thread.lead_angle), "arctan({P} / (pi * {d_2}))")
+    page.add("thread_stress_area", thread.stress_area, "pi / 16 * ({d_2} + {d_3})**2", "ISO 898-1")
+    page.add("thread_root_area", thread.root_area, "pi / 4 * {d_3}**2")
     if (limits := thread.limits()) is None:
         return page
     page.section(N_("Limits of the thread"))

@@ -115,6 +115,8 @@ def measured_steps(page: Sheet, sprocket: Sprocket) -> None:
         chord, source = f"{{d}}{off} - 2 * {{r}}", form.standard
         if off and form.displacement(sprocket.chain.pitch):
             chord, source = f"{chord} - {{e}} * sin(pi / (2 * {{z}}))", ""
+    if isinstance(form, AnsiForm):
+        page.add("nominal_caliper_diameter", sprocket.nominal_chord, f"{{d}}{off} - {{d_r}}", form.standard)
     page.add("root_chord", sprocket.root_chord, chord if off else "{d_f}", source if off else "")
     over, source = (f"{{d}}{off} + {{d_r}}", form.standard) if isinstance(form, IsoForm) else ("{L_x} + 2 * {d_r}", "")
     page.add("sprocket_over_pins", sprocket.over_pins, over, source)

@@ -266,8 +266,7 @@ class Sprocket(RoundTeeth):
         roller = self.chain.roller_diameter
         if isinstance(self.form, SeatedForm):
             return self.root_chord + 2 * roller
-        odd = math.cos(self.pitch_angle / 4) if self.number_of_teeth % 2 else 1.0
-        return 2 * self.pitch_radius * odd + roller
+        return self.nominal_chord + 2 * roller
 
     @property
     def root_chord(self) -> float:
@@ -279,6 +278,12 @@ class Sprocket(RoundTeeth):
         radius = self.form.seating_radius(self.chain.roller_diameter)
         apart = self.form.displacement(self.chain.pitch) if isinstance(self.form, SeatedForm) else 0.0
         return 2 * ((self.root_radius + radius) * math.cos(off) - radius) - apart * math.sin(off)
+
+    @property
+    def nominal_chord(self) -> float:
+        """The caliper diameter as ANSI B29.1 has it, on nominal rollers in place of the wider seats, mm."""
+        odd = math.cos(self.pitch_angle / 4) if self.number_of_teeth % 2 else 1.0
+        return 2 * self.pitch_radius * odd - self.chain.roller_diameter
 
     @property
     def plate_room(self) -> float:
