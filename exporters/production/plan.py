@@ -124,8 +124,11 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 raise asked.refused("parts", bodies[0], "no_flat_outline")
             left_out += [_no_outline(where, p) for p in bodies]
             flat += [where] * len(bodies)
-            if bodies:
-                asked = replace(asked, export=with_keys(export, parts=[p for p in parts if p not in bodies]))
+            # no rod is cut out of paper
+            told = rods if export.purpose == "model" and not export.parts else set[str]()
+            if bodies or told:
+                kept = [p for p in asked.wanted if p not in bodies and p not in told]
+                asked = replace(asked, export=with_keys(export, parts=kept or [p for p in parts if p not in bodies]))
             sheets += _sheets(replace(asked, export=_of_cams(asked.export, parts, only_parts)), taken)
             continue
         if export.is_laid:

@@ -9,9 +9,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.base.record import replace
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
-from parts.drawing.canvas import TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, draw
+from parts.drawing.canvas import TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, draw, text_width
 from parts.drawing.choice import blank
 from parts.drawing.expected import Expected
 from parts.drawing.table import Row, Table
@@ -24,24 +24,121 @@ _MARK, SQUARE = 4.0, 100.0
 _NEAR = 1e-9
 _MARGINS = (MARGIN, MARGIN)
 Edge = Line | Arc
+# the axis of a part
+_CROSS = tuple(Line(-_MARK * way, _MARK * way) for way in (1, 1j))
 
 
 def model_pages(
     title: str, outlines: Mapping[str, Sequence[Edge]], errors: Mapping[str, float], paper: str, language: str
 ) -> list[Expected]:
-    """What is needed to print and measure, then the tiles of each part; ``errors``: of each outline, mm."""
-    pages, rows = [], list[Row]()
+    """What is needed to print and measure, then each part; ``errors``: of each outline, mm.
+
+    Outlines that a sheet holds whole share it where it has room for several.
+    """
+    boxes = {name: _box_of(edges) for name, edges in outlines.items()}
+    layouts = {name: _layout(box, paper) for name, box in boxes.items()}
+    groups: list[list[str]] = []
+    for upright in (True, False):
+        whole = [n for n, one in layouts.items() if one.columns * one.rows == 1 and one.upright == upright]
+        groups += _groups(whole, boxes, blank(paper, upright=upright, margins=_MARGINS).frame, language)
+    shared = {name: group for group in groups if len(group) > 1 for name in group}
+    pages, rows, first = list[Expected](), list[Row](), dict[str, int]()
     for name, edges in outlines.items():
-        tiles = _tiles(name, edges, paper, language)
-        for page in tiles:
-            page.canvas.max_error = errors[name]
-        pages += tiles
-        rows.append(Row(name, "", sheet_words(language, "model_sheets", number=len(tiles))))
+        if name not in first:
+            group = shared.get(name, [name])
+            first |= dict.fromkeys(group, len(pages) + 2)
+            if len(group) > 1:
+                made = [_together({n: outlines[n] for n in group}, boxes, layouts[name].upright, paper, language)]
+            else:
+                made = _tiles(name, edges, layouts[name], boxes[name], paper, language)
+            for page in made:
+                page.canvas.max_error = max(errors[n] for n in group)
+            pages += made
+        last = len(pages) + 1 if name not in shared else first[name]
+        key = "model_sheet" if last == first[name] else "model_sheets"
+        rows.append(Row(name, "", sheet_words(language, key, first=first[name], last=last)))
     return [_cover(title, rows, paper, language), *pages]
 
 
+class _Layout(Record):
+    """In how many tiles an outline lies on paper, and the size of each, mm."""
+
+    columns: int
+    rows: int
+    upright: bool
+    wide: float
+    tall: float
+
+
+def _layout(box: Box, paper: str) -> _Layout:
+    """The fewest tiles."""
+    found = []
+    for upright in (True, False):
+        frame = blank(paper, upright=upright, margins=_MARGINS).frame
+        wide, tall = frame.wide - OVERLAP, frame.tall - _CAPTION - OVERLAP
+        found.append(_Layout(math.ceil(box.wide / wide), math.ceil(box.tall / tall), upright, wide, tall))
+    return min(found, key=lambda one: one.columns * one.rows)
+
+
+def _box_of(edges: Sequence[Edge]) -> Box:
+    return Box.of(np.concatenate([edge.point(np.linspace(*edge.domain, 33)) for edge in edges]).tolist())
+
+
+def _caption(name: str, language: str) -> str:
+    return sheet_words(language, "model_whole", part=name)
+
+
+def _cell(name: str, box: Box, frame: Box, language: str) -> complex:
+    """The room that an outline takes on a sheet with its caption, mm."""
+    return complex(max(box.wide, min(text_width(_caption(name, language)), frame.wide)), box.tall + _CAPTION)
+
+
+def _groups(names: Sequence[str], boxes: Mapping[str, Box], frame: Box, language: str) -> list[list[str]]:
+    """The outlines of each sheet: in rows, the tallest first."""
+    found: list[list[str]] = []
+    at, deep = 0j, 0.0
+    for name in sorted(names, key=lambda n: -boxes[n].tall):
+        cell = _cell(name, boxes[name], frame, language)
+        if found and at.real + cell.real > frame.wide:
+            at, deep = complex(0.0, at.imag + deep + OVERLAP), 0.0
+        if not found or at.imag + cell.imag > frame.tall:
+            found.append([])
+            at, deep = 0j, 0.0
+        found[-1].append(name)
+        at, deep = at + cell.real + OVERLAP, max(deep, cell.imag)
+    return found
+
+
+def _together(
+    outlines: Mapping[str, Sequence[Edge]], boxes: Mapping[str, Box], upright: bool, paper: str, language: str
+) -> Expected:
+    """One sheet of several outlines, in rows."""
+    canvas = blank(paper, upright=upright, margins=_MARGINS)
+    frame, curves = canvas.frame, list[Edge]()
+    at, deep = complex(frame.left, frame.high), 0.0
+    for name, edges in outlines.items():
+        box, cell = boxes[name], _cell(name, boxes[name], frame, language)
+        if at.real + cell.real > frame.right + _NEAR:
+            at, deep = complex(frame.left, at.imag - deep - OVERLAP), 0.0
+        canvas.write(_caption(name, language), at - 6.0j, TEXT_HEIGHT, frame.wide)
+        place = Paper(1.0, at - 1j * _CAPTION - complex(box.left, box.high))
+        for edge in edges:
+            curves.append(moved := _moved(edge, place.origin))
+            canvas.add("CUT", moved)
+        if Box(0.0, 0.0, 0.0, 0.0).within(box):
+            draw(canvas, "CENTRE_MARK", _CROSS, place)
+        at, deep = at + cell.real + OVERLAP, max(deep, cell.imag)
+    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": list(curves)})
+
+
+def _moved(edge: Edge, by: complex) -> Edge:
+    if isinstance(edge, Line):
+        return Line(edge.start + by, edge.end + by)
+    return replace(edge, centre=edge.centre + by)
+
+
 def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
-    """How to print, the square that must measure 100 mm, and how many sheets each part has."""
+    """How to print, the square that must measure 100 mm, and on which sheets each part is."""
     canvas = blank(paper, upright=True, margins=_MARGINS)
     frame = canvas.frame
     wide, at = frame.wide, complex(frame.left, frame.high - 2 * TITLE_TEXT)
@@ -63,17 +160,10 @@ def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
     return Expected(canvas, Paper(1.0, 0j), (), {"CUT": list(sides)})
 
 
-def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[Expected]:
+def _tiles(name: str, edges: Sequence[Edge], layout: _Layout, box: Box, paper: str, language: str) -> list[Expected]:
     """The sheets of one outline, those that show nothing of it left out."""
-    points = np.concatenate([edge.point(np.linspace(*edge.domain, 33)) for edge in edges])
-    left, right, low, high = points.real.min(), points.real.max(), points.imag.min(), points.imag.max()
-    layouts = []
-    for upright in (True, False):
-        frame = blank(paper, upright=upright, margins=_MARGINS).frame
-        wide, tall = frame.wide - OVERLAP, frame.tall - _CAPTION - OVERLAP
-        layouts.append((math.ceil((right - left) / wide), math.ceil((high - low) / tall), upright, wide, tall))
-    columns, rows, upright, wide, tall = min(layouts, key=lambda one: one[0] * one[1])
-    corner = complex(left + right - columns * wide, low + high - rows * tall) / 2
+    columns, rows, upright, wide, tall = layout.columns, layout.rows, layout.upright, layout.wide, layout.tall
+    corner = complex(box.left + box.right - columns * wide, box.low + box.high - rows * tall) / 2
     found = []
     for row in reversed(range(rows)):
         for column in range(columns):
@@ -88,13 +178,12 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
             draw(canvas, "CUT", pieces, Paper(1.0, origin))
             if rows * columns > 1:
                 _marks(canvas, cell, origin)
-            cross = [Line(-_MARK * way, _MARK * way) for way in (1, 1j)]
             # it may lie where both overlap
             if Box(-_MARK, -_MARK, _MARK, _MARK).within(cell.grown(OVERLAP / 2)):
-                draw(canvas, "CENTRE_MARK", cross, Paper(1.0, origin))
+                draw(canvas, "CENTRE_MARK", _CROSS, Paper(1.0, origin))
             place = {"row": rows - row, "column": column + 1, "rows": rows, "columns": columns}
-            key = "model_tile" if rows * columns > 1 else "model_whole"
-            text = sheet_words(language, key, part=name, **place)
+            tiled = sheet_words(language, "model_tile", part=name, **place)
+            text = tiled if rows * columns > 1 else _caption(name, language)
             canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.wide - 4.0)
             found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}))
     return found

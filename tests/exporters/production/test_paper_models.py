@@ -97,3 +97,52 @@ def test_a_long_title_with_breaks_stands_in_one_line_within_the_frame() -> None:
     lines = [stroke.curve for stroke in job.canvas.strokes]
     ends = np.array([point for line in lines for point in (start_point(line), end_point(line))])
     assert job.canvas.frame.grown(1e-9).holds(ends) == len(ends)
+
+
+def model_of(parts: str, asked: str = "") -> Any:
+    """The job of a paper model of some parts."""
+    export = f'[[exports]]\nformat = "pdf"\npurpose = "model"\ntolerance = 0.02\n{asked}'
+    (job,) = plan_build(scene_from_toml(f"{parts}{export}".encode(), "s.toml", "s"), "s", [], []).sheets
+    return job
+
+
+def plate_of(name: str, width: float, height: float) -> str:
+    return f'[parts.{name}]\nkind = "plate"\nwidth = {width}\nheight = {height}\nface_width = 3.0\n'
+
+
+def test_parts_that_one_sheet_holds_share_it_ten_millimetres_apart() -> None:
+    """Of A4 194 x 281 mm are printed on: two rows of two plates of 80 x 120 with their captions, the fifth alone."""
+    plates = "".join(plate_of(name, 80.0, 120.0) for name in "abcde")
+    job = model_of(plates + plate_of("long", 260.0, 20.0) + plate_of("wide", 260.0, 300.0))
+    cover, four, fifth, lying, *tiles = job.pages
+    assert [len(page.curves["CUT"]) for page in (four, fifth, lying)] == [16, 4, 4]
+    assert (len(tiles), lying.canvas.width) == (2, 297)
+    boxes = []
+    for k in range(0, 16, 4):
+        corners = np.array([start_point(edge) for edge in four.curves["CUT"][k : k + 4]])
+        assert four.canvas.frame.grown(1e-9).holds(corners) == 4
+        low, high = complex(corners.real.min(), corners.imag.min()), complex(corners.real.max(), corners.imag.max())
+        assert high - low == pytest.approx(80 + 120j)
+        boxes.append((low, high))
+    for k, (low, high) in enumerate(boxes):
+        for other_low, other_high in boxes[:k]:
+            apart = other_low - high, low - other_high
+            assert max(*(p.real for p in apart), *(p.imag for p in apart)) >= 10 - 1e-9
+    told = [word.text for word in cover.canvas.texts]
+    assert [told.count(where) for where in ("sheet 2", "sheet 3", "sheet 4", "sheets 5 to 6")] == [4, 1, 1, 1]
+    captions = [word.text for word in four.canvas.texts if "1:1" in word.text]
+    assert len(captions) == 4
+
+
+def test_no_rod_is_cut_out_of_paper_where_the_notes_tell_its_length() -> None:
+    """The rod is called for by its name, or where no notes say how long it is to be cut."""
+    parts = plate_of("arm", 40.0, 12.0) + '[parts.axle]\nkind = "pin"\ndiameter = 6.0\nlength = 20.0\n'
+    noted = '[scene]\nnotes = ["Glue."]\n'
+    for scene, asked, number in ((noted, "", 1), ("", "", 2), (noted, 'parts = ["arm", "axle"]\n', 2)):
+        told = [
+            word.text
+            for page in model_of(scene + parts, asked).pages
+            for word in page.canvas.texts
+            if "1:1" in word.text
+        ]
+        assert len(told) == number, (scene, asked)
