@@ -138,6 +138,7 @@ SHEETS = [
     ("sprocket", "pitch=12.7", "roller_diameter=8.51", "face_width=5", "number_of_teeth=9", "form=0.5",
      "tip_diameter=41"),
     ("sprocket", "chain_drive", "part=printed_pinion"),
+    ("sprocket", "chain=ANSI 80", "tooth_form=ANSI B29.1", "number_of_teeth=17"),
     ("chain", "chain_drive", "part=pinion", "speed_rpm=300", "power=1500"),
     ("chain", "chain_drive", "part=printed_pinion", "torque=20"),
     ("pulley", "belt=T5", "number_of_teeth=20", "clearance=0.05"),

@@ -58,3 +58,17 @@ def test_limits_of_a_straight_spline_are_those_of_a_worked_example() -> None:
     assert [row for _, row in zip(clearances.labels, clearances.rows, strict=True)] == [
         pytest.approx(pair) for pair in ((0, 36), (300, 640), (40, 76))
     ]
+
+
+@pytest.mark.parametrize("cutter", [24, 25, 30, 38, 40, 60, 80, 100])
+def test_rings_of_eighteen_teeth_more_than_the_cutter_can_be_fed_into(cutter: int) -> None:
+    """Elements of Metric Gear Technology, table 5-3 (1): without shifts no tip is trimmed from z0 + 18 teeth on."""
+    for more, fits in ((17, False), (18, True)):
+        words = ("kind=internal_gear_pair", "module=1", f"first.number_of_teeth={cutter}",
+                 f"second.number_of_teeth={cutter + more}", "first.basic_rack.addendum_coefficient=1.25",
+                 "second.tip_rule=KHK", "second.rounded_root.full_round=true")  # fmt: skip
+        values = json.loads(calculate("gear-pair", words, "json", "en"))["values"]
+        # the ring has its tips whole, and the pinion those of a cutter
+        assert values["tip_radius"]["second"] == pytest.approx((cutter + more) / 2 - 1, rel=1e-12)
+        assert values["tip_radius"]["first"] == pytest.approx(cutter / 2 + 1.25, rel=1e-12)
+        assert (values["radial_assembly_margin"] > 0) == fits
