@@ -5,7 +5,7 @@ Splines go by the recursion of Cox and de Boor, written here once more: the one 
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,15 +70,17 @@ class Knots(Record, eq=False):
             values = raised
         return values, slopes, first - self.degree
 
-    def matrices(self, shares: Real) -> tuple[Real, Real]:
-        """What poles are multiplied by for points, and derivatives, at all spans' shares: (spans k, poles) each."""
-        values, slopes, first = self.basis(shares)
-        whole = np.zeros((2, len(first), len(shares), len(self.knots) - self.degree - 1))
-        places = first[:, None] + np.arange(self.degree + 1)
-        for number, place in enumerate(places):
-            whole[0, number, :, place], whole[1, number, :, place] = values[number].T, slopes[number].T
-        points, derivatives = whole.reshape(2, -1, whole.shape[-1])
-        return points, derivatives
+
+@lru_cache(8)
+def _matrices(knots: Knots, places: bytes) -> tuple[Real, Real]:
+    """What poles are multiplied by for points, and derivatives, at all spans' shares: (spans k, poles) each."""
+    shares = np.frombuffer(places)
+    values, slopes, first = knots.basis(shares)
+    whole = np.zeros((2, len(first), len(shares), len(knots.knots) - knots.degree - 1))
+    for number, place in enumerate(first[:, None] + np.arange(knots.degree + 1)):
+        whole[0, number, :, place], whole[1, number, :, place] = values[number].T, slopes[number].T
+    points, derivatives = whole.reshape(2, -1, whole.shape[-1])
+    return points, derivatives
 
 
 class Patches(Record, eq=False):
@@ -94,7 +96,7 @@ class Patches(Record, eq=False):
 
         ``part``: of which surfaces.
         """
-        (u, du), (v, dv) = self.along.matrices(along), self.across.matrices(across)
+        (u, du), (v, dv) = _matrices(self.along, along.tobytes()), _matrices(self.across, across.tobytes())
         low, steep = (np.tensordot(self.poles[part], matrix, (1, 1)) for matrix in (u, du))
         found = [np.tensordot(x, y, (1, 1)).transpose(0, 2, 3, 1) for x, y in ((low, v), (steep, v), (low, dv))]
         return found[0], found[1], found[2]

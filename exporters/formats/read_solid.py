@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from exporters.formats.read_curves import Curves, Flags, Frames, Patches, lobatto, spans_of
@@ -30,7 +32,7 @@ class Uses(Record, eq=False):
     left: Flags
 
 
-class Model(Record, eq=False):
+class Model(Record, eq=False, dict=True):
     """The solids of a file, measured.
 
     Edges (e,) are the first of ``curves``; those after them are the ones that extrusions move. Of all spans ``points``
@@ -58,7 +60,7 @@ class Model(Record, eq=False):
     area: Real
     gap: Real
 
-    @property
+    @cached_property
     def spans(self) -> tuple[Index, Index]:
         """The spans of all uses, and the use that each belongs to."""
         return spans_of(self.curves, self.uses.edge)
@@ -69,7 +71,7 @@ class Model(Record, eq=False):
         sizes = np.linalg.norm(self.slopes, axis=2) @ lobatto()[1]
         return float(sizes[self.spans[0]].sum())
 
-    @property
+    @cached_property
     def heights(self) -> tuple[Real, Real]:
         """The least and the greatest z on the edges of each face, mm."""
         span, use = self.spans

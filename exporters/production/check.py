@@ -203,11 +203,11 @@ def _solids(
 ) -> dict[str, Any]:
     """Solids as they stand, then on the way that the drives move them, or wherever these may stand."""
     from parts.scene.interference import by_contact, has_solid_pairs, solid_overlaps
-    from parts.scene.shapes import Shape
+    from parts.scene.shapes import shape_of
 
-    shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
+    shapes = {name: shape_of(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
     fits: list[tuple[Instance, Instance, float]] = []
-    overlaps = solid_overlaps(placing, parts, lambda name: shapes[name].solid, fits)
+    overlaps = solid_overlaps(placing, parts, fits)
     solids = [_overlap(o.first, o.second, o.volume, told) for o in overlaps]
     checks: dict[str, Any] = {}
     known = {frozenset((o.first, o.second)) for o in overlaps}

@@ -20,7 +20,7 @@ from parts.base.texts import N_, unless
 from parts.scene.load import ExportSpec
 from parts.scene.placing import PlacedMate
 from parts.scene.relative_path import Course, common_period, course_of
-from parts.scene.shapes import Shape
+from parts.scene.shapes import shape_of
 from parts.scene.standing import Instance
 
 T = TypeVar("T")
@@ -163,7 +163,7 @@ def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part])
     rates, fastest = set(), Fraction(0)
     for instance in instances:
         chain = course.rates.get(instance.id, ())
-        shape = Shape(parts[instance.part])
+        shape = shape_of(parts[instance.part])
         fastest = max([fastest, *map(abs, chain)])
         # what is round, or looks alike in parts of a turn, about the axis on which it turns, comes again the sooner
         alike = shape.count(0.0, shape.reach) if instance.id in course.spins else 1

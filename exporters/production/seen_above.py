@@ -13,8 +13,8 @@ from geometry.base.placement import Placement3
 from geometry.curves.line_arc import Line
 from geometry.plane.profile import Label, Profile, Segment
 from parts.base.part import Part
-from parts.scene.half_sections import Sectioned
-from parts.scene.shapes import Shape
+from parts.scene.half_sections import sectioned
+from parts.scene.shapes import shape_of
 from parts.scene.standing import Instance
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def seen_lying(part: Part, instance: Instance, chord: float, *, spins: bool) -> 
     """
     import shapely
 
-    made, off = Sectioned(part), 0.0
+    made, off = sectioned(part), 0.0
     if made.half is not None:
         rows = made.bands
     else:
@@ -67,7 +67,7 @@ def seen_lying(part: Part, instance: Instance, chord: float, *, spins: bool) -> 
 
 def is_round(part: Part) -> bool:
     """Whether what turns about its axis is seen as what it sweeps: it is round, or has teeth."""
-    return Sectioned(part).half is not None or not 0 < Shape(part).count(0.0, math.inf) < _TEETH
+    return sectioned(part).half is not None or not 0 < shape_of(part).count(0.0, math.inf) < _TEETH
 
 
 def outer_points(part: Part, chord: float) -> tuple[Complex, float]:

@@ -20,7 +20,7 @@ _PLACES = np.linspace(0.02, 0.98, 9)
 def edge_points(model: Model, faces: Index) -> Real:
     """Of all edges of some faces, (n, 3)."""
     span, use = model.spans
-    mine = np.unique(span[np.isin(model.uses.face[use], faces)])
+    mine = np.unique(span[np.isin(model.uses.face, faces)[use]])
     points = model.points[mine]
     level = np.ptp(points[..., 2], axis=1) <= LEVEL
     return np.concatenate([points[level].reshape(-1, 3), points[~level][:, _KEPT].reshape(-1, 3)])

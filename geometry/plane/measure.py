@@ -133,6 +133,8 @@ def distance_to_chain(points: Complex, curves: Sequence[Curve], *, trusted: floa
 
 def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted: float) -> Real:
     """Quick, then thorough where it matters: there the points are turned to the periods beside theirs too."""
+    if len(curves) == len(turns) == 1 and isinstance(curves[0], Arc | Line):
+        return distance_to_plain(points, curves[0])
     result = _quick_distance(points, curves)
     doubtful = np.flatnonzero(result > trusted)
     if doubtful.size:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,7 @@ from parts.base.part import Part
 from parts.scene.half_sections import FAR, TOUCH, Sections, drawn_along
 from parts.scene.interference import by_contact, common_volume, inner_solid, placed_solid
 from parts.scene.placing import Placing
-from parts.scene.shapes import Shape
+from parts.scene.shapes import shape_of
 from parts.scene.standing import UPWARDS, Instance
 from parts.scene.steps import Stage, StepSpec, stages
 
@@ -94,14 +93,11 @@ class _Order:
     def __init__(self, placing: Placing, parts: Mapping[str, Part]) -> None:
         self.parts = dict(parts)
         self.sections = Sections(self.parts)
-        self.count = cache(lambda key: Shape(self.parts[key]).count(0.0, math.inf))
         self.contact = by_contact(placing, dict(parts))
         self.home = {i.id: i for i in placing.instances}
         self.number = {key: k for k, key in enumerate(self.home)}
         self.boxes = np.array([_box(i, parts[i.part]) for i in placing.instances])
         self.done: dict[object, tuple[str, float | None]] = {}
-        # one name may be that of a part and of an instance
-        self.inner: dict[str, Any] = {}
         self.solids: dict[str, Any] = {}
         self.laid: dict[object, tuple[Real, Any]] = {}
 
@@ -204,14 +200,18 @@ class _Order:
         offset, way = (coming.centre - standing.centre) * turn, complex(leg.way[0], leg.way[1]) * turn
         rotation = coming.rotation - standing.rotation
         # as seen from what stands, which looks alike so often in a turn
-        alike, seen = self.count(standing.part), cmath.phase(offset) if abs(offset) > _NONE else 0.0
+        alike, seen = self._count(standing.part), cmath.phase(offset) if abs(offset) > _NONE else 0.0
         about = -seen if not alike else -math.tau / alike * math.floor(seen / math.tau * alike + _NEAR)
         offset, way, rotation = offset * cmath.rect(1.0, about), way * cmath.rect(1.0, about), rotation + about
-        own = self.count(coming.part)
+        own = self._count(coming.part)
         turned = math.remainder(rotation, math.tau / own) if own else 0.0
         lift = coming.at[2] - standing.at[2]
         numbers = (offset.real, offset.imag, way.real, way.imag, leg.way[2], leg.length, lift, turned)
         return coming.part, standing.part, *(round(x, _DIGITS) + 0.0 for x in numbers)
+
+    def _count(self, part: str) -> int:
+        """How often it looks alike in a turn; 0: it is round."""
+        return shape_of(self.parts[part]).count(0.0, math.inf)
 
     def _slides(self, coming: Instance, standing: Instance, leg: Leg, screwed: bool) -> bool:
         """Whether gears in contact slide along their teeth; a worm by its thread: what goes before it is no thicker."""
@@ -317,7 +317,7 @@ class _Order:
             if solid.is_empty():
                 raise GeometryError(f"no solid lies about the way of {coming.id}")
             return placed_solid(coming, solid)
-        inner = self._inner(coming.part)
+        inner = inner_solid(self.parts[coming.part])
         if abs(abs(along) - 1) < _NONE:
             *_, low, _, _, high = inner.bounding_box()
             drawn = manifold3d.Manifold.extrude(inner.project(), high - low + far)
@@ -331,17 +331,12 @@ class _Order:
         """Across all that there is, mm."""
         return float(np.linalg.norm(self.boxes[:, 1].max(axis=0) - self.boxes[:, 0].min(axis=0)))
 
-    def _inner(self, part: str) -> Any:
-        if part not in self.inner:
-            self.inner[part] = inner_solid(self.parts[part])
-        return self.inner[part]
-
     def _solid(self, standing: Instance) -> Any:
         """What stands, in its place; a worm by its hull. What was asked for long ago makes room."""
         found = self.solids.pop(standing.id, None)
         if found is None:
             hull = self.sections.made(standing.part).hull
-            found = placed_solid(standing, hull or self._inner(standing.part))
+            found = placed_solid(standing, hull or inner_solid(self.parts[standing.part]))
         self.solids[standing.id] = found
         kept = [solid.num_tri() for solid in self.solids.values()]
         while sum(kept) > _MOST_PLACED and len(kept) > 1:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile
-from geometry.base.record import Record, replace
+from geometry.base.record import Record, made_once, replace
 from geometry.curves.curve import Complex, Real
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.worms.body import WormBody
@@ -98,7 +98,7 @@ class Sectioned:
             self.body, self.teeth, upright = self.thing.wheel.core, self.body.section_reach(), True
         self.known = self.half is not None or upright
         # by place of the axis, or by the distances at which it goes about another one
-        self.at, self.going = cache(self._at), cache(self._going)
+        self.at, self.going, self.swept = cache(self._at), cache(self._going), cache(self._swept)
 
     @cached_property
     def bands(self) -> Real:
@@ -111,12 +111,15 @@ class Sectioned:
     @cached_property
     def hull(self) -> Any | None:
         """A mesh about a worm, its thread whole; None of all else."""
+        return self.swept(0.0, 0.0) if isinstance(self.thing, WormBody) else None
+
+    def _swept(self, near: float, far: float) -> Any:
+        """A mesh about all that it sweeps as its axis goes about another one, ``near`` to ``far`` from it, mm."""
         import manifold3d
 
-        if self.half is None or not isinstance(self.thing, WormBody):
-            return None
-        wide = self.half.real / math.cos(math.pi / _ROUND)
-        sides = manifold3d.CrossSection([list(zip(wide.tolist(), self.half.imag.tolist(), strict=True))])
+        rings, _ = self._rings(near, far)
+        rings[:, 1:3, 0] /= math.cos(math.pi / _ROUND)
+        sides = manifold3d.CrossSection(rings.tolist(), manifold3d.FillRule.NonZero)
         return manifold3d.Manifold.revolve(sides, _ROUND)
 
     @cached_property
@@ -209,14 +212,24 @@ class Sectioned:
         """As its own axis goes about another one, ``near`` to ``far`` from it, mm."""
         import shapely
 
+        rings, aside = self._rings(near, far)
+        exact = aside and isinstance(self.thing, HalfSection) and self.thing.is_round and not self.thing.holes
+        return _Region(shapely.union_all(shapely.polygons(rings)), None, exact)
+
+    def _rings(self, near: float, far: float) -> tuple[Real, bool]:
+        """The same as rings (n, 4, 2), r and z of the corners; whether each leaves the axis as free as it was."""
         z0, z1, *radii = self.bands.T
         inner, outer = np.array(radii[:2]), np.array(radii[2:])
         beside, about = (near >= outer).all(axis=0), (far <= inner).all(axis=0)
         least = np.where(beside, near - outer, np.where(about, inner - far, 0.0))
         (a, b), (c, d) = least, outer + far
-        rows = np.array([[a, z0], [c, z0], [d, z1], [b, z1], [a, z0]]).transpose(2, 0, 1)
-        exact = isinstance(self.thing, HalfSection) and self.thing.is_round and not self.thing.holes
-        return _Region(shapely.union_all(shapely.polygons(rows)), None, exact and bool((beside | about).all()))
+        rings = np.array([[a, z0], [c, z0], [d, z1], [b, z1]]).transpose(2, 0, 1)
+        return rings, bool((beside | about).all())
+
+
+def sectioned(part: Part) -> Sectioned:
+    """The sections of a part, once for all that ask."""
+    return made_once(part, "sectioned", lambda: Sectioned(part))
 
 
 class Sections:
@@ -224,8 +237,11 @@ class Sections:
 
     def __init__(self, parts: Mapping[str, Part]) -> None:
         self.parts = parts
-        self.made = cache(lambda key: Sectioned(self.parts[key]))
         self._held: dict[object, Fit | None] = {}
+
+    def made(self, key: str) -> Sectioned:
+        """The sections of one of them."""
+        return sectioned(self.parts[key])
 
     def between(self, one: Instance, two: Instance) -> Fit | None:
         """Two instances as they stand, if sections about the axis of either tell it."""

@@ -7,15 +7,14 @@ inside the true solid: what overlaps then overlaps for certain. The booleans are
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from functools import cache
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 
 from geometry.base.errors import GeometryError
-from geometry.base.record import Record, replace
+from geometry.base.record import Record, made_once, replace
 from geometry.curves.curve import Real
 from geometry.solids.faced import FacedBody
 from parts.base.part import Part
@@ -44,16 +43,13 @@ class SolidOverlap(Record):
 def solid_overlaps(
     placing: Placing,
     parts: dict[str, Part],
-    solid_of: Callable[[str], Any] | None = None,
     fits: list[tuple[Instance, Instance, float]] | None = None,
 ) -> tuple[SolidOverlap, ...]:
     """Every two instances that run into each other for certain; teeth of plates in a mate are left to their contact.
 
-    ``solid_of``: the mesh inside a part, where somebody has it already; ``fits`` takes what keeps pairs apart, mm, that
-    half sections have decided.
+    ``fits`` takes what keeps pairs apart, mm, that half sections have decided.
     """
     contact, sections = by_contact(placing, parts), Sections(parts)
-    solid_of = solid_of or cache(lambda key: inner_solid(parts[key]))
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
     found = []
     for pair in combinations(placing.instances, 2):
@@ -70,10 +66,10 @@ def solid_overlaps(
                 # a thread is meshed only where its hull is not clear
                 hulls = [sections.made(i.part).hull for i in pair]
                 volume = common_volume(
-                    [placed_solid(i, h or solid_of(i.part)) for i, h in zip(pair, hulls, strict=True)]
+                    [placed_solid(i, h or inner_solid(parts[i.part])) for i, h in zip(pair, hulls, strict=True)]
                 )
                 if volume > 0 and any(hulls):
-                    volume = common_volume([placed_solid(i, solid_of(i.part)) for i in pair])
+                    volume = common_volume([placed_solid(i, inner_solid(parts[i.part])) for i in pair])
             except GeometryError:
                 volume = None
         if volume != 0:
@@ -126,6 +122,10 @@ def placed_solid(instance: Instance, solid: Any) -> Any:
 
 def inner_solid(part: Part) -> Any:
     """A mesh inside the part's solid, as manifold3d has it; finer where its walls are thin."""
+    return made_once(part, "inner_solid", lambda: _inner_solid(part))
+
+
+def _inner_solid(part: Part) -> Any:
     inset = INSET * part.body(0.0).section_reach()
     for _ in range(8):
         try:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, made_once
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
 from parts.base.part import Part
-from parts.scene.half_sections import Sectioned
+from parts.scene.half_sections import Sectioned, sectioned
 from parts.scene.interference import inner_solid
 
 if TYPE_CHECKING:
@@ -61,6 +61,12 @@ class Shape:
         """A mesh inside it; GeometryError where a wall is too thin for one."""
         return inner_solid(self.part)
 
+    @property
+    def sections(self) -> Sectioned | None:
+        """Those about its axis, if they tell where it is: not of a wheel whose teeth are taken for whole."""
+        made = sectioned(self.part)
+        return made if made.known and not made.teeth else None
+
     @cached_property
     def profile(self) -> tuple[Real, Real]:
         """Levels (n + 1), mm, and how far it reaches from its axis between each two (n), no less."""
@@ -92,6 +98,8 @@ class Shape:
 
         About its own axis its free bore is left out.
         """
+        if self.sections is not None:
+            return self.sections.swept(near, far)
         import manifold3d
 
         levels, reach = self.profile
@@ -127,7 +135,11 @@ class Shape:
 
     @cached_property
     def bore(self) -> float:
-        """Radius about the axis that is free of it, mm: where no triangle, seen along the axis, comes nearer."""
+        """Radius about the axis that is free of it, mm: by its sections, else where no triangle, seen along the axis,
+        comes nearer.
+        """
+        if self.sections is not None:
+            return float(self.sections.bands[:, 2:4].min()) * (1 - _MARGIN)
         mesh = self.solid.to_mesh()
         vertices = np.asarray(mesh.vert_properties, dtype=float)
         points = vertices[:, 0] + 1j * vertices[:, 1]
@@ -140,12 +152,17 @@ class Shape:
         return nearest * (1 - _MARGIN) if nearest > _SAME else 0.0
 
 
+def shape_of(part: Part) -> Shape:
+    """What stands for a part, once for all that ask."""
+    return made_once(part, "shape", lambda: Shape(part))
+
+
 class SweptShape(Shape):
     """What a part sweeps as it turns about its own axis: round, and no smaller."""
 
     def __init__(self, shape: Shape) -> None:
         self.part, self.low, self.high, self.reach, self.walls = shape.part, shape.low, shape.high, shape.reach, ()
-        self.solid = Sectioned(shape.part).hull or shape.swept()
+        self.solid = shape.swept()
         self.slabs = None
 
 
@@ -156,7 +173,7 @@ class LyingShape(Shape):
 
     def __init__(self, shape: Shape, instance: Instance, *, turns: bool) -> None:
         self.part, self.turns = shape.part, turns
-        solid = (Sectioned(shape.part).hull or shape.swept()) if turns else shape.solid
+        solid = shape.swept() if turns else shape.solid
         matrix = np.array(instance.scene_from_part.matrix())
         matrix[:, 3] = 0.0
         self.solid = solid.transform(matrix)
@@ -165,6 +182,10 @@ class LyingShape(Shape):
         self.low, self.high = float(corners[:, 2].min()), float(corners[:, 2].max())
         self.reach = float(np.hypot(corners[:, 0], corners[:, 1]).max())
         self.walls = ((1, 0.0, self.reach),)
+
+    @property
+    def sections(self) -> None:
+        """None about the upright axis."""
 
 
 def _outline(body: Body | FacedBody) -> tuple[float, tuple[tuple[int, float, float], ...]]:
