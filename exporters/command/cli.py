@@ -590,8 +590,9 @@ def _stress(options: argparse.Namespace) -> int:
 
     _check_language(options)
     told, folder = words(_language(options)), options.out / "stress"
-    rows = atlas()
+    # a folder that cannot be written is told before all is computed
     with staging_folder(folder) as staging:
+        rows = atlas()
         names = write_stress(staging, rows, told)
         with alone_in(folder):
             move_into(folder, staging, names)

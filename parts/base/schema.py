@@ -120,7 +120,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         name = missing.group(1)
         owner = _owner(kind, keys, table)
         _check_misspelt(name, looked_up(table, keys), source, where, owner.__struct_encode_fields__)
-        what = _tags_of(kind, [*keys, name], table) or described_key(owner, name)
+        what = _tags_of(kind, [*keys, name], table)
+        what = what or _with_form(described_key(owner, name), _form_of(owner, name), kind, [*keys, name], table)
         return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
     allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)
     if allowed is None and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):
@@ -146,6 +147,12 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
 
 
+def _form_of(owner: type[Struct], name: str) -> str:
+    """What msgspec would say of an empty word, where a key takes words of a form."""
+    metas = _metas(_types_of(owner).get(name))
+    return "matching regex" if any(m.pattern for m in metas) else ""
+
+
 def _wrong_entry(kind: object, table: Mapping[str, Any]) -> str:
     """The first key of a table of any keys whose value alone is refused."""
     for key, value in table.items():
@@ -169,7 +176,7 @@ def _with_form(
         allowed = Message(told) if told else allowed
         if isinstance(held := looked_up(table, keys), list) and len(held) > int(pair.group(1)):
             span = message("{range}, with a decimal point, since a comma parts them", range=span)
-    elif long := re.match(r"Expected `(str|array)` of length (<=|>=) (\d+)", said):
+    elif long := re.match(r"Expected `(str|array|object)` of length (<=|>=) (\d+)", said):
         most, number = long.group(2) == "<=", int(long.group(3))
         if long.group(1) == "array":
             own = [] if field is None else [m for m in _metas(field.type) if m.max_length == number]
@@ -177,6 +184,8 @@ def _with_form(
             if not most or any(m.min_length is not None for m in own):
                 return allowed
             span = message("at most {limit:g}", limit=number)
+        elif long.group(1) == "object":
+            span = message("at least {limit:g}", limit=number)
         elif most:
             span = counted("at most {n} character", "at most {n} characters", "n", n=number)
         else:

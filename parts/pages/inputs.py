@@ -68,12 +68,12 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
 
 
 def toml_value(text: str) -> Any:
-    """A value as TOML has it; what is none is plain text."""
+    """A value as TOML has it; what is none, a number of thousands of digits and dates are plain text."""
     try:
         parsed = tomllib.loads(f"v = {text}")
-    except (tomllib.TOMLDecodeError, RecursionError):
+    except (ValueError, RecursionError):
         return text
-    return parsed["v"] if set(parsed) == {"v"} else text
+    return msgspec.to_builtins(parsed["v"]) if set(parsed) == {"v"} else text
 
 
 def keys_of(kind: type[Struct]) -> list[str]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import re
-import tomllib
 from collections.abc import Iterator, Sequence
 from copy import deepcopy
 from decimal import Decimal
@@ -84,11 +83,9 @@ def variants(scene: SceneFile, axes: Sequence[Axis]) -> Iterator[Variant]:
 
 def _values(key: str, text: str) -> Iterator[Any]:
     """The values of a list of values and ranges."""
-    try:
-        yield from tomllib.loads(f"v = [{text}]")["v"]
+    if isinstance(listed := toml_value(f"[{text}]"), list):
+        yield from listed
         return
-    except (tomllib.TOMLDecodeError, RecursionError):
-        pass
     for piece in text.split(","):
         if not piece.strip():
             raise SceneError(PLACE, key, text, "no_variation")
@@ -101,10 +98,15 @@ def _values(key: str, text: str) -> Iterator[Any]:
 def _range(key: str, text: str, ends: Sequence[str]) -> list[Any]:
     """From, to, and the step or 1, in decimal digits: 0.1 ten times is 1."""
     first, last, step = (Decimal(e) for e in (*ends, "1")[:3])
-    if step <= 0 or last < first or not (last - first) / step < MOST_VARIANTS:
+    try:
+        steps = (last - first) / step if step > 0 else Decimal(-1)
+    except ArithmeticError:
+        # beyond what even decimal numbers hold
+        steps = Decimal(-1)
+    if not 0 <= steps < MOST_VARIANTS:
         raise SceneError(PLACE, key, text.strip(), "no_range", most=MOST_VARIANTS)
     number = int if all(re.fullmatch(r"[+-]?\d+", e) for e in ends) else float
-    return [number(first + k * step) for k in range(int((last - first) / step) + 1)]
+    return [number(first + k * step) for k in range(int(steps) + 1)]
 
 
 def _counted(key: str, values: tuple[Any, ...], scene: SceneFile) -> tuple[Any, ...]:

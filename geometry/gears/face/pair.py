@@ -138,8 +138,16 @@ class FacePair(Record, dict=True):
             return self._path / (math.pi * self.gear.module * math.cos(self.pinion.pressure_angle))
         radii = np.linspace(self.gear.inner_radius, self.gear.outer_radius, _ALONG)
         ends = [self._on(length, radii) for length in (self.form_length, self._tip_length)]
-        begins, parts = (at.turn[(at.x >= self.low) & (at.x <= self.high)] for at in ends)
+        begins, parts = (self._turns(at) for at in ends)
+        if not (len(begins) and len(parts)):
+            return 0.0
         return float(begins.max() - parts.min()) * self.pinion.number_of_teeth / math.tau
+
+    def _turns(self, at: Places) -> Real:
+        """How far the pinion has turned at those places that lie on its face, and at its ends; none beside it."""
+        low, high = max(self.low, float(at.x[0])), min(self.high, float(at.x[-1]))
+        within = at.x[(at.x > low) & (at.x < high)]
+        return np.interp([low, *within, high], at.x, at.turn) if low <= high else within
 
     @property
     def _path(self) -> float:

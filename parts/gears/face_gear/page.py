@@ -43,7 +43,7 @@ def sheet(keys: FaceKeys) -> Sheet:
     _face(page, gear)
     with suppress(GeometryError):
         # of another rack only its own pinion may be
-        pair = FacePair(gear, pinion_of(keys), gear.inner_radius - gear.module, gear.outer_radius + gear.module)
+        pair = FacePair(gear, pinion_of(keys), 0.0, gear.outer_radius + gear.module)
         page.add("total_contact_ratio", pair.contact_ratio)
         if gear.more_teeth:
             page.add("end_gap", pair.end_gap)

@@ -47,7 +47,8 @@ _DEDENDA = CUTTER_ADDENDUM, 1.2, 1.15, 1.1, 1.05
 _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 # what may be to blame for teeth that cannot be, and what takes it out of play; the least usual dedendum, modules
 _THINNED = {"circumferential_thinning": 0.0}
-_TYPED, _USUAL = {"pinion_profile_shift_coefficient": 0.0, "pressure_angle_deg": 20.0}, 1.0
+_TYPED = {"pinion_profile_shift_coefficient": 0.0, "pressure_angle_deg": 20.0, "number_of_teeth": 10_000}
+_USUAL = 1.0
 # mm: how near pictures are to the edges of tips
 _SEEN = 1e-7
 # rounds after which both touch in the middle of the face

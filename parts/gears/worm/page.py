@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import Annotated, Any
@@ -163,6 +163,11 @@ def drive_table(specs: Sequence[Struct]) -> dict[str, Any]:
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of one worm, or of its drive."""
+    return begun(table)()
+
+
+def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
+    """The same, refused where it is before the teeth of the wheel are made, of which remarks alone are told."""
     asked: WormKeys = checked(table, WormKeys, TOPIC)
     keys = asked
     errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
@@ -214,8 +219,13 @@ def sheet(table: dict[str, Any]) -> Sheet:
         if torque is not None and keys.form_factor is not None:
             load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
             _strength(page, drive, keys, load)
-        _wheel_remarks(page, keys)
-    return page
+
+    def finished() -> Sheet:
+        if drive:
+            _wheel_remarks(page, keys)
+        return page
+
+    return finished
 
 
 def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:

@@ -38,7 +38,7 @@ def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = END
     file = Path(name)
     if file.suffix.lower() not in endings:
         stem = file.with_suffix("") if file.suffix else file
-        works = Nearest(stem.with_name(f"{stem.name or 'contour'}{endings[0]}").as_posix())
+        works = Nearest((stem.parent / f"{stem.name or 'contour'}{endings[0]}").as_posix())
         raise SceneError(PLACE, f"{topic}.{key}", name, "file_ends_in", works, known=endings)
     if not file.parent.is_dir():
         raise SceneError(PLACE, f"{topic}.{key}", name, "no_such_folder", Nearest(file.name))

@@ -125,6 +125,20 @@ def test_the_command_tells_all_and_writes_it(tmp_path: Path, capsys: pytest.Capt
     assert (tmp_path / "stress" / "stress.svg").is_file()
 
 
+def test_a_folder_that_cannot_be_made_is_told_before_all_is_computed(
+    tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def computed() -> list[Row]:
+        raise AssertionError
+
+    monkeypatch.setattr(stress, "atlas", computed)
+    (tmp_path / "file").write_text("", "utf-8")
+    assert run("stress", "--out", tmp_path / "file") == 2
+    assert capsys.readouterr().err == (
+        f"higherpair: {tmp_path / 'file' / 'stress'}: Not a directory; choose another place with --out\n"
+    )
+
+
 def _rows(error: float) -> list[Row]:
     return [Row("involute function", "α, rad", v, 0.5, error, 3.0, 1e-15) for v in (1e-8, 1.0)]
 

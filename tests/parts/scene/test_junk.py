@@ -240,6 +240,22 @@ def test_a_refusal_tells_what_rounding_left_out_as_it_was_written(capsys: pytest
     assert "spur.module = 1e-20: " in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("words", "told"), [
+    # before: tracebacks of a number that Python does not read, and of a file without a name
+    (["spur", f"module=1{'0' * 5000}", "number_of_teeth=20"], "must be a number; module m"),
+    (["shift-choice", "practicum_pair", "picture="], 'ends in one of .svg, .dxf; "contour.svg" works'),
+    # before: what it is, not what one looks like
+    (["spur", "module=2", "number_of_teeth=20", "accuracy={}"], 'is missing: grade and kind of mate: like "8-B"'),
+    (["spur", "module=2", "number_of_teeth=20", "title={}"], "name for people, in any script: at least 1"),
+])  # fmt: skip
+def test_junk_for_a_calculation_is_refused_in_one_line(
+    words: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["calc", *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert told in line
+
+
 @pytest.mark.parametrize("depth", [100, 900, 5000])
 def test_the_deepest_table_is_no_trouble(depth: int) -> None:
     """Dotted keys nest without brackets, so that no parser stops them."""

@@ -58,6 +58,13 @@ def test_every_choice_once_in_a_folder_of_its_own() -> None:
     assert found[0].name.startswith("gear.number_of_teeth=8,other.module=1,gear.material=")
 
 
+def test_dates_and_numbers_of_thousands_of_digits_are_values_as_typed() -> None:
+    """What comes of them is a row's: before, no table could hold a date, nor Python read so long a number."""
+    for text in ("2026-01-01", "10:00:00", f"1{'0' * 5000}"):
+        assert axes_of([f"gear.module={text}"], SCENE)[0].values == (text,)
+    assert axes_of(["gear.module=[2026-01-01, 2]"], SCENE)[0].values == (["2026-01-01", 2],)
+
+
 def test_a_key_within_a_table() -> None:
     (axis,) = axes_of(["gear.tip_relief.depth_coefficient=0.01,0.02"], SCENE)
     assert [v.scene["parts"]["gear"]["tip_relief"] for v in variants(SCENE, [axis])] == [
@@ -78,6 +85,9 @@ def test_a_key_within_a_table() -> None:
     (["gear.module=1:2:0"], "no_range", "gear.module"),
     (["gear.module=1:2:-1"], "no_range", "gear.module"),
     (["gear.module=1:1e30:1e-30"], "no_range", "gear.module"),
+    # before: a traceback of numbers beyond what decimal ones hold
+    (["gear.module=1:1e9999999999"], "no_range", "gear.module"),
+    (["gear.module=0:1:1e-9999999"], "no_range", "gear.module"),
     (["gear.module=1,1.0"], "listed_twice", "gear.module"),
     (["gear.material=Steel,steel"], "listed_twice", "gear.material"),
     (["gear.module=1", "gear.module=2"], "given_twice", "gear.module"),

@@ -171,6 +171,9 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"shaper_number_of_teeth": 60}, "shaper_number_of_teeth"),
         ({"pinion_number_of_teeth": 5, "dedendum_coefficient": 1.25}, "dedendum_coefficient"),
         ({"pinion_number_of_teeth": 8, "pinion_profile_shift_coefficient": 0.5}, "dedendum_coefficient"),
+        # of the usual addenda, which nobody types, none is low enough: before, the lowest was refused without an offer
+        ({"number_of_teeth": 8, "pinion_number_of_teeth": 20}, "number_of_teeth"),
+        ({"number_of_teeth": 60, "pinion_number_of_teeth": 10_000}, "number_of_teeth"),
         ({"pinion_number_of_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0},
          "addendum_coefficient"),
         ({"pinion_number_of_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.5},
@@ -207,6 +210,27 @@ def test_pinions_of_few_teeth_mesh_by_default(teeth: int, others: int) -> None:
     assert gear.face_width >= 2.0
     assert mating.contact(0.0, 0.0, None).verdict.name == "CLEAR"
     assert [found.code for found in mating.findings() if found.code != "contact_ratio"] == []
+
+
+@pytest.mark.parametrize("width", [1e-2, 1e-1, 1.0])
+def test_a_narrow_pinion_touches_as_long_as_a_rack_in_its_plane(width: float) -> None:
+    """Before, a traceback where none of the radii that were looked at lay on its face.
+
+    In its plane, of pressure angle alpha, the gear is a rack whose addendum the pinion's line of action ends at.
+    """
+    _, (mating,), _ = made(scene({}, {"face_width": width}))
+    pair = mating.pair
+    x = (pair.low + pair.high) / 2
+    alpha = math.acos(pair.gear.reference_radius * math.cos(math.radians(20)) / x)
+    base, tip = pair.pinion.base_radius, pair.pinion.tip_radius
+    begins = (pair.gear.tip_depth - base * math.cos(alpha)) / math.sin(alpha)
+    path = math.sqrt(tip**2 - base**2) - max(begins, pair.form_length)
+    assert mating.quantities()["contact_ratio"] == pytest.approx(path / (math.tau * base / 14), abs=0.12 * width + 1e-9)
+
+
+def test_a_pinion_beside_whose_face_all_contact_lies_has_none() -> None:
+    """Before, a traceback: a pinion of far more teeth touches the gear far from the plane of its axis."""
+    assert calculate("face-gear", ["module=2", "number_of_teeth=60", "pinion_number_of_teeth=200"], "text", None)
 
 
 def test_an_offer_leaves_tips_that_a_backlash_may_thin() -> None:
