@@ -375,7 +375,11 @@ def _parser(told: Words) -> Parser:
 
     meaning = told.text("print a scene with comments to start from; for a mate, its table")
     new = command("new", meaning, _new, page)
-    kinds = told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list")
+    kinds = told.text(
+        "a kind of part or mate or a built-in scene, see `{command}`; {table}: the keys of a table",
+        command="higherpair list",
+        table="spur_gear.bore",
+    )
     new.add_argument("kind", metavar=shown("KIND"), help=kinds)
     plain = told.text("print the plain scene that an assembly, or a scene with one, becomes")
     new.add_argument("--expand", action="store_true", help=plain)
@@ -637,7 +641,7 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _new(options: argparse.Namespace) -> int:
-    from exporters.command.new import commented, new_assembly, new_mate, new_scene, plain_scene
+    from exporters.command.new import commented, new_assembly, new_mate, new_scene, new_table, plain_scene
     from parts.base.refusal import SceneError, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
@@ -652,6 +656,8 @@ def _new(options: argparse.Namespace) -> int:
     makers = [(KINDS, new_scene), (MATES, new_mate), (RECIPES, new_assembly)]
     # a scene that has the name of a kind is asked for with its ending
     text = next((make(options.kind, _language(options)) for kinds, make in makers if options.kind in kinds), None)
+    if text is None and options.kind not in scenes:
+        text = new_table(options.kind, _language(options))
     if text is None:
         if options.kind not in scenes and not (options.expand and os.path.isfile(options.kind)):
             known = list(dict.fromkeys([*(kind for kinds, _ in makers for kind in kinds), *built_in]))

@@ -17,7 +17,7 @@ from msgspec import Meta, Struct
 from msgspec.structs import FieldInfo
 
 from parts.base.registry import KINDS
-from parts.base.schema import described, example_of, fields_of, is_open, own_first, phrase_of, tables_of
+from parts.base.schema import described, example_of, fields_of, is_open, own_first, phrase_of, structs_of, tables_of
 from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
@@ -129,6 +129,7 @@ def _head(told: Words) -> list[str]:
         f"# {told.text('A scene of higherpair: build it with  higherpair build THIS_FILE.toml')}",
         f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
         f"# {told.text('Lengths in mm, angles in degrees.')}",
+        f"# {told.text('What the keys of a table mean:  {command}', command=_NEW + 'KIND.KEY')}",
         f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
         "",
         "[scene]",
@@ -157,6 +158,33 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
         *_keys(fields_of(keys), told, {"first": _OWN, "second": _OTHER}),
     ]
     return "\n".join(lines) + "\n"
+
+
+def new_table(place: str, language: str = ENGLISH) -> str | None:
+    """The tables that a key takes, ``KIND.KEY`` or deeper, each key with unit, range and default; None: it takes none.
+
+    ``exports`` stands for a kind.
+    """
+    told, (kind, *names) = words(language), place.split(".")
+    known: Mapping[str, Any] = next((found for found in (KINDS, MATES, RECIPES) if kind in found), {})
+    if not names or not (known or kind == "exports"):
+        return None
+    tables: list[type[Struct]] = [known[kind].keys if known else ExportSpec]
+    is_list = False
+    for name in names:
+        fields = [f for table in tables for f in fields_of(table) if f.encode_name == name]
+        tables = list(dict.fromkeys(one for f in fields for one in structs_of(f.type)))
+        is_list = any(not tables_of(f) for f in fields)
+    head = {**dict.fromkeys(KINDS, f"parts.{_OWN}"), **dict.fromkeys(MATES, "mates"), "exports": "exports"}
+    there = ".".join([head.get(kind, "assemblies"), *names])
+    lines = [f"# {told.text('Lengths in mm, angles in degrees.')}"]
+    for table in tables:
+        config = table.__struct_config__
+        tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
+        lines += ["", f"# {told.text(phrase_of(table))}.", f"[[{there}]]" if is_list else f"[{there}]", *tag,
+                  *_keys(fields_of(table), told)]  # fmt: skip
+    # in letters that every terminal has, as all that is new
+    return "\n".join(lines).replace("…", "...") + "\n" if tables else None
 
 
 def _scene_of(kind: str) -> Path | None:

@@ -65,6 +65,36 @@ def test_new_writes_a_file_that_builds_whatever_the_terminal_can_show(tmp_path: 
     assert run("build", file, "--out", tmp_path, "--format", "svg") == 0
 
 
+def test_new_tells_every_key_of_a_table_and_each_bore_that_it_shows_is_made(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """``new`` shows a table in one line: what ``flat`` is measured from, the schema alone told."""
+    text = said(capsys, "new", "spur_gear.bore")
+    assert re.search(r"^flat = 7\.0 +# from the flat to the opposite side: at least", text, re.MULTILINE)
+    blocks = text.split("\n\n")[1:]
+    assert len(blocks) == 8
+    gear = '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 40\n[[exports]]\nformat = "svg"\n'
+    for number, block in enumerate(blocks):
+        file = tmp_path / f"bore_{number}.toml"
+        # a spline is told by its designation
+        file.write_text(gear + block.replace("# size =", "size =") + "\n", encoding="utf-8")
+        assert run("check", "-q", file) == 0, block
+        assert all(" # " in line for line in block.splitlines()[3:]), block
+    deep = said(capsys, "new", "layered.layers.outlines")
+    assert deep.isascii()
+    assert re.search(r"^# count = 1 +# how often", deep, re.MULTILINE)
+    assert "[[parts.gear.layers.outlines]]" in deep
+    assert "\n# checked = " in said(capsys, "new", "exports.title_block")
+
+
+@pytest.mark.parametrize("place", ["spur_gear.module", "spur_gear.bor", "spur_gear.bore.flat", "exports", "gear.bore"])
+def test_a_key_that_takes_no_table_is_refused_as_an_unknown_kind(
+    place: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("new", place) == 2
+    assert f'KIND = "{place}": unknown kind' in capsys.readouterr().err
+
+
 def test_new_in_english_is_ascii(capsys: pytest.CaptureFixture[str]) -> None:
     """A shell that reads a pipe in its own code page spoils nothing."""
     for kind in (*KINDS, *MATES):
