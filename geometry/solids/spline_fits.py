@@ -121,6 +121,25 @@ def greatest_tip(joint: InvoluteJoint, limits: SideLimits) -> float | None:
     return joint.shaft_diameters[1] + limits.deviation / math.tan(joint.pressure_angle)
 
 
+def root_limits(joint: InvoluteJoint, limits: SideLimits) -> tuple[float, float] | None:
+    """Least and greatest root diameters of ISO 4156, mm: whatever the class, they have the tolerance of grade 7."""
+    if (units := limits.units) is None:
+        return None
+    share, slope = ISO_GRADES[-1][0], math.tan(joint.pressure_angle)
+    width = (share * units.of_diameter + 4 * share * units.of_width) / 1000 / slope
+    if limits.way > 0:
+        return joint.hub_diameters[1], joint.hub_diameters[1] + width
+    most = joint.shaft_diameters[0] + limits.deviation / slope
+    return most - width, most
+
+
+def greatest_form(joint: InvoluteJoint, limits: SideLimits) -> float:
+    """D_Fe max of a shaft, mm: on thinner teeth the sides begin nearer to the axis (ISO 4156-1)."""
+    base, sine = joint.reference_radius * math.cos(joint.pressure_angle), math.sin(joint.pressure_angle)
+    along = math.sqrt((joint.form_diameters[0] / 2) ** 2 - base**2)
+    return 2 * math.hypot(base, along + limits.deviation / (2 * math.tan(joint.pressure_angle) * sine))
+
+
 def grade_of(told: str) -> int:
     """The number of a class: 5 of 5H."""
     return int(told.rstrip(ascii_letters))

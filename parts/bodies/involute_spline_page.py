@@ -6,7 +6,15 @@ import math
 from typing import Annotated
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.solids.spline_fits import ISO_GRADES, SideLimits, grade_of, greatest_tip, side_limits
+from geometry.solids.spline_fits import (
+    ISO_GRADES,
+    SideLimits,
+    grade_of,
+    greatest_form,
+    greatest_tip,
+    root_limits,
+    side_limits,
+)
 from geometry.solids.splines import InvoluteJoint, SplineMeasures
 from parts.base.texts import N_
 from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
@@ -122,6 +130,25 @@ def _measured_steps(page: Sheet, joint: InvoluteJoint, keys: InvoluteSplineKeys,
         _limit_steps(page, joint, limits, found, is_shaft=is_shaft)
 
 
+def _root_steps(
+    page: Sheet, joint: InvoluteJoint, limits: SideLimits, roots: tuple[float, float], *, is_shaft: bool
+) -> None:
+    """Limits of the root diameter by ISO 4156, and where the sides of a shaft begin with its teeth as thick as that."""
+    share, standard = ISO_GRADES[-1][0], joint.standard
+    width = f"({share:g} * {{i_d}} + {4 * share:g} * {{i_s}}) / 1000 / tan({{alpha}})"
+    if not is_shaft:
+        page.add("least_hub_root", roots[0], "{D_f}", standard)
+        page.add("greatest_hub_root", roots[1], f"{{D_EI}} + {width}", standard)
+        return
+    thinned = " + {es} / 1000 / tan({alpha})" if limits.deviation else ""
+    if limits.deviation:
+        along = "sqrt({D_Fe}**2 - {d_b}**2) / 2 + {es} / 2000 / (tan({alpha}) * sin({alpha}))"
+        formula = f"2 * sqrt(({{d_b}} / 2)**2 + ({along})**2)"
+        page.add("greatest_shaft_form", greatest_form(joint, limits), formula, standard)
+    page.add("greatest_shaft_root", roots[1], f"{{d_f}}{thinned}", standard)
+    page.add("least_shaft_root", roots[0], f"{{D_IE}} - {width}", standard)
+
+
 def _limit_steps(
     page: Sheet, joint: InvoluteJoint, limits: SideLimits, found: SplineMeasures, *, is_shaft: bool
 ) -> None:
@@ -157,6 +184,8 @@ def _limit_steps(
         page.add(names[1], far, f"{{near}} {sign} ({{TL}} - {{lam}}) / 1000")
         if (tip := greatest_tip(joint, limits)) is not None:
             page.add("greatest_shaft_tip", tip, "{d_a} + {es} / 1000 / tan({alpha})", standard)
+    if (roots := root_limits(joint, limits)) is not None:
+        _root_steps(page, joint, limits, roots, is_shaft=is_shaft)
     page.add(names[2], limits.actual[1], "{near} - {lam} / 1000" if is_shaft else "{near} + {TL} / 1000")
     page.add(names[3], limits.actual[0], "{near} - {TL} / 1000" if is_shaft else "{near} + {lam} / 1000")
     aslant = " * cos(pi / (2 * {z}))" if joint.teeth % 2 else ""
