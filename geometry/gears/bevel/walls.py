@@ -80,7 +80,9 @@ def wall_distance(gear: BevelGear, name: str, way: int, points: Real) -> Real:
     depth, radius = gear.mounting_distance - points[:, 2], np.hypot(points[:, 0], points[:, 1])
     size, pitch = np.hypot(depth, radius), math.tau / gear.number_of_teeth
     azimuth = np.arctan2(points[:, 1], points[:, 0]) - gear.spin(size)
-    aside, angle = way * (azimuth - pitch * np.round(azimuth / pitch)), np.arctan2(radius, depth)
+    # folded on the tooth's other side: chords between fillets that meet bow over the middle of their space
+    aside, angle = way * azimuth, np.arctan2(radius, depth)
+    aside = aside - pitch * np.floor(aside / pitch + 0.25)
     if name == "fillet":
         off, u = _fillet_foot(gear, angle, aside)
         share = np.sin(u)

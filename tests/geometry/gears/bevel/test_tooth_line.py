@@ -139,6 +139,18 @@ def test_distances_of_leaning_walls_are_those_of_points_moved_along_normals(name
                 assert wall_distance(gear, wall, way, moved) == pytest.approx(abs(off), abs=1e-6)
 
 
+def test_a_fillet_goes_on_beyond_the_middle_of_its_space() -> None:
+    """Chords of roots without a land bow over it: they were measured from the next tooth, and refused."""
+    section = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(50)))
+    gear = BevelGear(2.0, 30, 30, 12.7, Blank(5.0), math.pi / 2, section, circumferential_thinning=0.04,
+                     spiral_angle=math.radians(50), cutter_radius=36.0, hand="left").checked()  # fmt: skip
+    ends = gear.wall_points("fillet", np.zeros(1), ALONG).reshape(-1, 3)
+    for turn in (-2e-4, 2e-4):
+        turned = (ends[:, 0] + 1j * ends[:, 1]) * np.exp(1j * turn)
+        moved = np.column_stack([turned.real, turned.imag, ends[:, 2]])
+        assert wall_distance(gear, "fillet", 1, moved).max() < 2e-4 * np.abs(turned).max()
+
+
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LINES)
 def test_mates_touch_wherever_they_stand_and_backlash_is_measured_along_the_normal(name: str) -> None:
