@@ -114,7 +114,7 @@ def verify_table(results: list[Recheck], told: Words) -> None:
 
 def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], told: Words) -> None:
     """Error against run time of every file, and the order of every method on every curve."""
-    from exporters.production.converge import LEAST_PIECES
+    from exporters.production.converge import LEAST_PIECES, curve_name
 
     columns: _Columns[Rung] = (
         (N_("file"), lambda r: r.file),
@@ -134,7 +134,7 @@ def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], to
         return told.text("{first} to {last}", first=o.counts[0], last=o.counts[-1])
 
     of_orders: _Columns[Order] = (
-        (N_("curve"), lambda o: f"{o.part} {o.curve}"),
+        (N_("curve"), lambda o: curve_name(o, told)),
         (N_("method"), lambda o: told.text(o.method)),
         (N_("order of the method"), lambda o: f"{o.theory:g}"),
         (N_("observed order"), lambda o: "-" if o.observed is None else f"{o.observed:.3f}"),

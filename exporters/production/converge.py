@@ -24,6 +24,7 @@ from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
+from geometry.plane.profile import Label
 from parts.base.texts import N_, Words
 
 # making and measuring a rung may take this long, s; the next one would take longer
@@ -75,6 +76,20 @@ METHODS: dict[str, tuple[float, Callable[[Curve, int], float]]] = {
     N_("cubic splines"): (4.0, lambda curve, count: _bare_spline(curve, count, 3)),
     N_("degree 7 splines"): (8.0, lambda curve, count: _bare_spline(curve, count, 7)),
 }
+
+
+# names of curves for people; the tables for programs have their labels
+_CURVES: dict[str, str] = {
+    Label.FLANK: N_("flank"),
+    Label.ROOT_FILLET: N_("root fillet"),
+    Label.RELIEF: N_("tip relief"),
+    Label.CAM: N_("profile of the cam"),
+}
+
+
+def curve_name(order: Order, told: Words) -> str:
+    """A part and its curve."""
+    return f"{order.part} {told.text(_CURVES.get(order.curve, order.curve))}"
 
 
 def ladder(plan: Plan, folder: Path, progress: Callable[[str], None] = lambda path: None) -> list[Rung]:
@@ -169,7 +184,7 @@ def write_pictures(folder: Path, rungs: list[Rung], found: list[Order], told: Wo
     axes = told.text("time to write, s"), told.text("error, mm")
     write_loglog(folder / names[0], told.text("measured error against run time"), axes, runs)
     curves: list[Series] = [
-        (f"{o.part} {o.curve} {told.text(o.method)}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors))
+        (f"{curve_name(o, told)} {told.text(o.method)}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors))
         for o in found
     ]
     if not curves:

@@ -194,8 +194,9 @@ def test_both_tables_and_pictures_have_all_that_was_found(tmp_path: Path) -> Non
         # a line for each file and each curve, as many points as it has rungs
         assert points == [[2, 1], [2, 1]]
         assert {"a.svg", "b.stl"} < set(keys[0])
-        arcs = words(language).text("arcs")
-        assert {f"g flank {arcs} 2.95", "g flank splines"} < set(keys[1])
+        arcs, flank = (words(language).text(word) for word in ("arcs", "flank"))
+        assert {f"g {flank} {arcs} 2.95", f"g {flank} splines"} < set(keys[1])
+        assert (flank == "flank") == (language == "en")
         assert (arcs == "arcs") == (language == "en")
         assert (
             bool(set(keys[0]) & {"time to write, s"})
