@@ -8,7 +8,7 @@ from string import ascii_letters
 
 from geometry.base.record import Record
 from geometry.solids.splines import InvoluteJoint
-from geometry.solids.zones import deviation
+from geometry.solids.zones import MOST_SIZE, deviation, zone_limits
 
 # grades, and the letters of hubs and of shafts
 CLASSES: dict[str, tuple[range, tuple[str, ...], tuple[str, ...]]] = {
@@ -131,6 +131,12 @@ def root_limits(joint: InvoluteJoint, limits: SideLimits) -> tuple[float, float]
         return joint.hub_diameters[1], joint.hub_diameters[1] + width
     most = joint.shaft_diameters[0] + limits.deviation / slope
     return most - width, most
+
+
+def tip_tolerance(joint: InvoluteJoint, size: float) -> float | None:
+    """Of a tip diameter by ISO 4156-1, table 11, mm: grade 10 to m 0.75, 11 below m 2, else 12; None: too large."""
+    grade = 10 if joint.module <= 0.75 else 11 if joint.module < 2 else 12
+    return zone_limits(f"H{grade}", size)[1] if size <= MOST_SIZE else None
 
 
 def greatest_form(joint: InvoluteJoint, limits: SideLimits) -> float:

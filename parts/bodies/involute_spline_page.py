@@ -14,6 +14,7 @@ from geometry.solids.spline_fits import (
     greatest_tip,
     root_limits,
     side_limits,
+    tip_tolerance,
 )
 from geometry.solids.splines import InvoluteJoint, SplineMeasures
 from parts.base.texts import N_
@@ -133,9 +134,14 @@ def _measured_steps(page: Sheet, joint: InvoluteJoint, keys: InvoluteSplineKeys,
 def _root_steps(
     page: Sheet, joint: InvoluteJoint, limits: SideLimits, roots: tuple[float, float], *, is_shaft: bool
 ) -> None:
-    """Limits of the root diameter by ISO 4156, and where the sides of a shaft begin with its teeth as thick as that."""
+    """Limits of tip and root diameters by ISO 4156, and where the sides of a shaft begin with teeth as thick as that."""
     share, standard = ISO_GRADES[-1][0], joint.standard
     width = f"({share:g} * {{i_d}} + {4 * share:g} * {{i_s}}) / 1000 / tan({{alpha}})"
+    tip = (greatest_tip(joint, limits) or joint.shaft_diameters[1]) if is_shaft else joint.hub_diameters[0]
+    if (wide := tip_tolerance(joint, tip)) is not None:
+        name, way = ("least_shaft_tip", -1) if is_shaft else ("greatest_hub_tip", 1)
+        begin = "D_a" if not is_shaft else "D_EE" if greatest_tip(joint, limits) is not None else "d_a"
+        page.add(name, tip + way * wide, f"{{{begin}}} {'-' if is_shaft else '+'} {1000 * wide:g} / 1000", standard)
     if not is_shaft:
         page.add("least_hub_root", roots[0], "{D_f}", standard)
         page.add("greatest_hub_root", roots[1], f"{{D_EI}} + {width}", standard)
