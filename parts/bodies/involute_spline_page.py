@@ -134,7 +134,7 @@ def _measured_steps(page: Sheet, joint: InvoluteJoint, keys: InvoluteSplineKeys,
 def _root_steps(
     page: Sheet, joint: InvoluteJoint, limits: SideLimits, roots: tuple[float, float], *, is_shaft: bool
 ) -> None:
-    """Limits of tip and root diameters by ISO 4156, and where the sides of a shaft begin with teeth as thick as that."""
+    """Limits of tip and root diameters by ISO 4156; where the sides of a shaft with its deviation begin."""
     share, standard = ISO_GRADES[-1][0], joint.standard
     width = f"({share:g} * {{i_d}} + {4 * share:g} * {{i_s}}) / 1000 / tan({{alpha}})"
     tip = (greatest_tip(joint, limits) or joint.shaft_diameters[1]) if is_shaft else joint.hub_diameters[0]
