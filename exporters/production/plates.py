@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from exporters.boards.nest import QUARTERS, Laid, Room, lacking, largest_scale, nest
+from exporters.formats.registry import number_rounding
 from exporters.production.boards import different_boards
 from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name, several
 from exporters.production.request import Request
 from exporters.verification.assembly import ExpectedAssembly
 from exporters.verification.board import BoardPiece
-from geometry.base.errors import rounded
+from geometry.base.errors import ThinWallError, rounded
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from parts.base.refusal import SceneError
@@ -24,8 +26,8 @@ from parts.scene.standing import Instance
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-# footprints are those of chords so near to the solids, mm
-_CHORDS = 0.02
+# footprints are those of chords so near to the solids, mm, the first that cut through no wall
+_CHORDS = (0.02, 0.002, 0.0002)
 
 
 class PlateJob(AssemblyJob):
@@ -81,7 +83,7 @@ def plate_jobs(asked: Request) -> list[PlateJob]:
         wanted = [p for p in bed.parts or made if p in asked.wanted]
         counts = pieces_of(bed, wanted, scene.instances, asked.source, place)
         jobs = {p: asked.job(asked.parts[p]) for p in counts}
-        feet = {p: _footprint(job) for p, job in jobs.items()}
+        feet = {p: _footprint(job, asked.source) for p, job in jobs.items()}
         laid = _laid_out(bed, feet, counts, asked.source, place)
         for pieces, times in different_boards(laid):
             stand = tuple(
@@ -104,15 +106,20 @@ def instances_of(pieces: Mapping[str, Mapping[str, Any]]) -> list[Instance]:
     ]
 
 
-def _footprint(job: Job) -> tuple[BaseGeometry, float, float]:
-    """The hull of a solid seen from above, and its lowest and highest z, mm."""
+def _footprint(job: Job, source: str) -> tuple[BaseGeometry, float, float]:
+    """The hull of a solid seen from above, and its lowest and highest z, mm; refused where no chords keep its walls."""
     import shapely
 
     from parts.solids.mesh import body_mesh, mesh_outlines
 
-    vertices = body_mesh(job.body, mesh_outlines(job.body, _CHORDS, 0.0)).vertices
-    hull = shapely.MultiPoint(vertices[:, :2]).convex_hull.buffer(_CHORDS)
-    return hull, float(vertices[:, 2].min()), float(vertices[:, 2].max())
+    for chords in _CHORDS:
+        with suppress(ThinWallError):
+            outlines = mesh_outlines(job.body, chords, 64 * number_rounding(job))
+            vertices = body_mesh(job.body, outlines).vertices
+            hull = shapely.MultiPoint(vertices[:, :2]).convex_hull.buffer(_CHORDS[0])
+            return hull, float(vertices[:, 2].min()), float(vertices[:, 2].max())
+    place, told = f"{job.place}.tolerance", {"part": job.part.id}
+    raise SceneError(source, place, job.asked, "wall_too_thin_for_mesh", None, "mm", **told)
 
 
 def _laid_out(

@@ -15,7 +15,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import UndercutError
+from geometry.base.errors import ConvergenceError, UndercutError
 from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.pairs.sliding import specific_sliding
@@ -119,7 +119,8 @@ def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
     gear = SpurGear(1.0, number_of_teeth, rack, shift)
     try:
         _, flank = fillet_flank_joint(gear.fillet(), gear.flank())
-    except UndercutError:
+    except (UndercutError, ConvergenceError):
+        # far below the last shift that leaves a tooth no fillet has a point at all
         return _NAN
     return flank.start_roll * flank.base_radius
 

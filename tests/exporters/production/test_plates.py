@@ -240,10 +240,38 @@ def test_what_is_named_instead_of_a_small_bed_holds_all() -> None:
     assert plates._laid_out(enough, FEET, dict.fromkeys(FEET, 1), "s", "beds.b")
 
 
+OFFSET = """
+[parts.a]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 17
+face_width = 4.0
+[beds.printer]
+width = 80.0
+depth = 80.0
+height = 50.0
+[[exports]]
+format = "3mf"
+purpose = "plate"
+offset = {offset}
+"""
+
+
+@pytest.mark.parametrize("offset", [1e-9, 1e-6])
+def test_an_offset_of_almost_nothing_lies_as_the_gear_itself(offset: float) -> None:
+    """Where an undercut tooth has edges as long: before, a traceback of outlines that cross."""
+    feet = []
+    for moved in (offset, 0.0):
+        scene = scene_from_toml(OFFSET.format(offset=moved).encode(), "s.toml", "s")
+        (plate,) = (job for job in plan_build(scene, "s.toml", [], []).assemblies if isinstance(job, plates.PlateJob))
+        feet.append(plate.feet["a"])
+    assert feet[0].hausdorff_distance(feet[1]) <= plates._CHORDS[0]
+
+
 def test_every_piece_is_set_down_on_the_bed(monkeypatch: pytest.MonkeyPatch) -> None:
     """What reaches 2.5 mm below its origin is lifted by so much."""
     whole = plates._footprint
-    monkeypatch.setattr(plates, "_footprint", lambda job: (whole(job)[0], -2.5, whole(job)[2]))
+    monkeypatch.setattr(plates, "_footprint", lambda *job: (whole(*job)[0], -2.5, whole(*job)[2]))
     text = BED.format(width=60.0, length=5.0, more="")
     found = plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], []).assemblies
     laid = [job for job in found if isinstance(job, plates.PlateJob)]

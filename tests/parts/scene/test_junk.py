@@ -240,6 +240,15 @@ def test_a_refusal_tells_what_rounding_left_out_as_it_was_written(capsys: pytest
     assert "spur.module = 1e-20: " in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("keys", ["working_centre_distance=1.5", "pressure_angle_deg=5"])
+def test_sets_whose_shifts_leave_no_tooth_are_told_without_shifts(
+    keys: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # before: a traceback of the fillet of a tooth that is none
+    assert main(["calc", "planetary", "ratio=2.5", keys]) == 0
+    assert "no shifts keep least_tip_thickness and least_contact_ratio" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(("words", "told"), [
     # before: tracebacks of a number that Python does not read, and of a file without a name
     (["spur", f"module=1{'0' * 5000}", "number_of_teeth=20"], "must be a number; module m"),
