@@ -119,12 +119,17 @@ def _html_section(section: Section, told: Words) -> str:
             source += f' <span class="w">{html.escape(printed_text(step, told))}</span>'
         cells = [
             f"<td>{html.escape(name)}</td>",
-            f'<td class="f">{_subscripts(working)}</td>',
-            f'<td class="r">{html.escape(result)}</td>',
+            f'<td class="f">{_subscripts(told.printed(working))}</td>',
+            f'<td class="r">{html.escape(told.printed(result) if _is_number(step) else result)}</td>',
             f"<td>{source}</td>",
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
     return f"<h2>{html.escape(told.say(section.title))}</h2>\n<table>\n" + "\n".join(rows) + "\n</table>"
+
+
+def _is_number(step: Step) -> bool:
+    """Whether a step's value is a number or a fraction, no words."""
+    return not isinstance(step.value, str) or re.fullmatch(r"-?\d+/\d+", step.value) is not None
 
 
 def _subscripts(text: str) -> str:

@@ -169,6 +169,15 @@ class Words(NamedTuple):
         told = re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), number)
         return re.sub(r"(?<![\w)}\]-])-(?=\d)", MINUS, told)
 
+    def printed(self, formula: str) -> str:
+        """A formula with its numbers as the language prints it: true minus signs too, no comma of a number beside one
+        of a list.
+        """
+        told = self.decimal(formula)
+        if told != formula and self.term("decimal point", ".") == ",":
+            told = told.replace(", ", "; ")
+        return re.sub(r"(?<![^\s(|{\[/·])-(?=[\w(√∛|\s])", MINUS, told)
+
 
 @cache
 def words(language: str) -> Words:

@@ -7,7 +7,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from geometry.curves.curve import Curve, start_point
+from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Label, Profile, Region
 from geometry.solids.windows import HoleCircle
@@ -69,11 +69,15 @@ def part_drawing(
     centres = [*(() if circles else corners(curves)), *(centre for centre, _ in loose)]
     for chain in chains:
         centres += [*corners(chain), *(curve.centre for curve in chain if isinstance(curve, Arc))]
-    sizes = [] if whole or circles else [Size("width", low, complex(high.real, low.imag), "below"),
-                                         Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
-    if circles:
-        axes += [Line(complex(low.real), complex(high.real)), Line(1j * low.imag, 1j * high.imag)]
-    sizes += place_sizes(datum_of(region, circles)[0], centres, (low, high))
+    left, right, foot, top = (edge(curves, *ways) for ways in ((-1, -1j), (1, -1j), (-1j, -1), (1j, -1)))
+    sizes = [] if whole or circles else [Size("width", left, right, "below"), Size("height", foot, top, "left")]
+    if circles or whole:
+        middle = whole[0] if whole else 0j
+        axes += [Line(complex(low.real, middle.imag), complex(high.real, middle.imag)),
+                 Line(complex(middle.real, low.imag), complex(middle.real, high.imag))]  # fmt: skip
+    datum = datum_of(region, circles)[0]
+    starts = (datum, datum) if whole or circles else (left, foot)
+    sizes += place_sizes(datum, starts, centres, (low, high))
     rounds = [
         *diameters(round_holes, subject.language),
         *radii([*([] if whole else [curves]), *chains], subject.language),
@@ -85,8 +89,8 @@ def part_drawing(
     numbers = [Note(centre, str(k), about=radius) for k, (centre, radius) in enumerate(listed, 1)]
     # sizes stand below and on the left
     straight = (c for c in curves if isinstance(c, Line))
-    edge = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
-    at = farthest(curves, 1) if edge is None else (edge.start + edge.end) / 2
+    wall = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
+    at = farthest(curves, 1) if wall is None else (wall.start + wall.end) / 2
     notes = [Note(at, f"s {subject.say(subject.part.face_width)}")]
     cams = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
     if worked := [*working, *cams]:
@@ -132,14 +136,21 @@ def listed_holes(part: Part, circles: Sequence[HoleCircle] = ()) -> list[tuple[c
     return sorted(loose, key=lambda one: (round(one[0].real, _DIGITS), one[0].imag))
 
 
-def place_sizes(datum: complex, places: Iterable[complex], bounds: tuple[complex, complex]) -> Iterator[Size]:
-    """Each distance of places from the datum once, across and upwards; none of what has its own within ``bounds``."""
+def place_sizes(
+    datum: complex, starts: tuple[complex, complex], places: Iterable[complex], bounds: tuple[complex, complex]
+) -> Iterator[Size]:
+    """Each distance of places from the datum once, across and upwards; none of what has its own within ``bounds``.
+
+    ``starts``: from where the lines of both leave the outline; those of a place leave it where it is nearest to them.
+    """
     places, sides = list(places), dict[str, Side](x="below", y="left")
-    for (name, side), of in zip(sides.items(), (attrgetter("real"), attrgetter("imag")), strict=True):
+    real, imag = attrgetter("real"), attrgetter("imag")
+    for (name, side), of, other, start in zip(sides.items(), (real, imag), (imag, real), starts, strict=True):
         low, high = map(of, bounds)
-        for k, (value, at) in enumerate(sorted({round(of(p), _DIGITS): p for p in places}.items()), 1):
+        nearest = {round(of(p), _DIGITS): p for p in sorted(places, key=other, reverse=True)}
+        for k, (value, at) in enumerate(sorted(nearest.items()), 1):
             if low < value < high and abs(value - of(datum)) > _NEAR:
-                yield Size(f"{name}.{k}", datum, at, side)
+                yield Size(f"{name}.{k}", start, at, side)
 
 
 def _length(curve: Curve) -> float:
@@ -152,6 +163,13 @@ def extent(region: Region) -> tuple[complex, complex]:
     curves = [s.curve for s in region.outer.segments()]
     left, right, low, high = (farthest(curves, way) for way in (-1, 1, -1j, 1j))
     return complex(left.real, low.imag), complex(right.real, high.imag)
+
+
+def edge(curves: Sequence[Curve], way: complex, towards: complex) -> complex:
+    """Of the places of an outline that are farthest one way, that which is farthest another."""
+    best = farthest(curves, way)
+    tops = [best, *(at for c in curves for at in (start_point(c), end_point(c)))]
+    return max((at for at in tops if ((best - at) / way).real < _NEAR), key=lambda at: (at / towards).real)
 
 
 def corners(curves: Sequence[Curve]) -> Iterator[complex]:

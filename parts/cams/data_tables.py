@@ -56,7 +56,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
         (
             (*rows_of(page, _MOTION), *_phases(page)),
             (*_follower(part), *_sizes(part, page)),
-            _datum(part),
+            _datum(kind),
         ),
         chosen_columns(found, columns),
     )
@@ -93,9 +93,8 @@ def _sizes(part: Part, page: Sheet) -> list[DataRow]:
     return [row_of(steps[name]) for name in _SIZES if name in steps]
 
 
-def _datum(part: Part) -> tuple[DataRow, ...]:
-    """Where the columns of the positions begin."""
-    kind = part.kind
+def _datum(kind: str) -> tuple[DataRow, ...]:
+    """Where the columns of the positions of a kind begin."""
     if kind == "wedge_cam":
         return (DataRow(N_("origin of x and y"), "O", N_("as drawn")),)
     if kind == "barrel_cam":

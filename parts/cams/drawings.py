@@ -65,9 +65,12 @@ def _wedge(subject: Subject) -> PartDrawing:
     """A plate with the origin of its table, on the lower edge, and how far that is from its end."""
     made = plate_drawing.part_drawing(subject)
     (view,) = made.views
-    ends = plate_drawing.extent(subject.part.section(0.0).region)
-    up = Line(0j, 1j * ends[1].imag)
-    sizes = (*view.sizes, Size("origin", complex(ends[0].real), 0j, "below"))
+    region = subject.part.section(0.0).region
+    up = Line(0j, 1j * plate_drawing.extent(region)[1].imag)
+    left = plate_drawing.edge([s.curve for s in region.outer.segments()], -1, -1j)
+    # a hole over the origin has the same size
+    told = any(one.side == "below" and abs(one.end.real) < _SAME for one in view.sizes)
+    sizes = (*view.sizes, *([] if told else [Size("origin", left, 0j, "below")]))
     marked = Note(0j, "O", free=-1 - 1j)
     view = replace(view, axes=(*view.axes, up), sizes=sizes, notes=(*view.notes, marked))
     return replace(made, views=(view,))

@@ -56,13 +56,14 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     page = sprocket_page.sheet(given(keys))
     teeth, *chain = rows_of(page, ("number_of_teeth", *_CHAIN))
     form = DataRow(N_("profile of the teeth by"), "", standard_told(part.thing.form.standard))
+    named = () if keys.chain is None else (DataRow(N_("chain"), "", keys.chain),)
     beside = distance_rows(mates, "a")
     others = [DataRow(N_("teeth of the other sprocket"), "z", mate.part.thing.number_of_teeth) for mate in mates]
     # seats that are deeper by a limit make both of what is measured less by it
     measured = [row for one in rows_of(page, _MEASURED) for row in with_limits([one], keys.accuracy)]
     return DataTable(
         (
-            (teeth, *chain, form, *rows_of(page, _GAP), *grade_rows(keys.accuracy)),
+            (teeth, *named, *chain, form, *rows_of(page, _GAP), *grade_rows(keys.accuracy)),
             tuple(measured),
             (*rows_of(page, _CIRCLES), *beside, *others),
         )

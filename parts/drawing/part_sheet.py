@@ -14,7 +14,7 @@ from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curve
 from parts.base.texts import N_, fault
-from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
+from parts.drawing.canvas import SCALES, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, blank, sheet_for
 from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
@@ -22,7 +22,6 @@ from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet, Taken
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
 from parts.drawing.working import PartDrawing, Stroke, View, number_text
-from parts.texts.sheets import sheet_words
 
 # from line to line of requirements; room for the sign of roughness; mm
 _LINE, _SIGN = 7.0, (48.0, 20.0)
@@ -125,7 +124,7 @@ class _Corner(Record):
         return (turned_box(canvas), Box(frame.right - wide, frame.high - tall, frame.right, frame.high),
                 Box(frame.right - TITLE_BLOCK[0], frame.low, frame.right, frame.low + self.low))  # fmt: skip
 
-    def draw(self, canvas: Canvas, language: str) -> None:
+    def draw(self, canvas: Canvas) -> None:
         """All of it."""
         frame = canvas.frame
         canvas.box("FRAME", frame)
@@ -136,10 +135,6 @@ class _Corner(Record):
         self._sign(canvas, complex(frame.right - _SIGN[0] + 6.0, frame.high - _SIGN[1] + 6.0))
         if self.data is not None:
             self.data.draw(canvas, complex(frame.right, frame.high - _SIGN[1]))
-        text = f"{sheet_words(language, 'paper_format')} {canvas.paper}"
-        canvas.foot = canvas.margins[1]
-        at = complex(frame.right - text_width(text, SMALL_TEXT), frame.low - canvas.foot + 1.2)
-        canvas.write(text, at, SMALL_TEXT)
 
     def _sign(self, canvas: Canvas, foot: complex) -> None:
         """The roughness of all surfaces, or of all other ones: then in brackets the sign of the rest (GOST 2.309)."""
@@ -212,7 +207,7 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
     canvas, found = next((one, at) for one, apart in ways if (at := held(one, scale, apart=apart)) is not None)
     views = views_at(scale)
     corner, shifts = found
-    corner.draw(canvas, language)
+    corner.draw(canvas)
     outlines = []
     for view, one, shift in zip(row, views, shifts, strict=True):
         moved(one, canvas, shift, asked.tolerance)

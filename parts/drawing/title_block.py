@@ -57,6 +57,8 @@ _NAME, _COLUMNS = 5.0, 12.0
 _FROM_BELOW = (("original", 25), ("signed", 35), ("replaces", 25), ("duplicate", 25), ("signed", 35))
 # graph 26: long and short side, mm
 _TURNED = (70.0, 14.0)
+# from the left side of a form to graph 31, mm
+_COPIED = 70.0
 _FROM_TOP = (("first_use", 60), ("reference", 60))
 
 
@@ -122,6 +124,7 @@ def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: For
         write_lines(canvas, getattr(block, key), _at(corner, cell), size)
     _count(canvas, corner, block, form, language)
     _columns(canvas, language)
+    _below(canvas, corner.real, language)
     return Box(corner.real, corner.imag, corner.real + width, corner.imag + height)
 
 
@@ -163,6 +166,15 @@ def _columns(canvas: Canvas, language: str) -> None:
             canvas.write_rising(text, at, SMALL_TEXT, room)
         for x in (left, left + _NAME):
             canvas.line("FRAME", complex(x, start), complex(x, y))
+
+
+def _below(canvas: Canvas, left: float, language: str) -> None:
+    """Who copied the sheet, left to a pen, and its format, below the frame (GOST 2.104, graphs 31 and 32)."""
+    canvas.foot = canvas.margins[1]
+    told, y = words(language), canvas.frame.low - canvas.foot + 1.2
+    text = f"{told.say(LABELS['paper_format'])} {canvas.paper}"
+    canvas.write(told.say(LABELS["copied"]), complex(left + _COPIED, y), SMALL_TEXT)
+    canvas.write(text, complex(canvas.frame.right - text_width(text, SMALL_TEXT), y), SMALL_TEXT)
 
 
 def _count(canvas: Canvas, corner: complex, block: TitleBlock, form: Form, language: str) -> None:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import pairwise
+from itertools import accumulate, chain, pairwise
 
 from geometry.base.record import Record, replace
 from parts.base.part import Part
 from parts.base.texts import N_, Text, Words, in_context, message, standard_told, words
-from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width, text_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
 from parts.keys.accuracy import AccuracyTable
 from parts.pages.page import Sheet, Step, Table, shortest, unit_text
@@ -25,7 +25,7 @@ COLUMNS = (65.0, 10.0, 35.0)
 WIDTH = sum(COLUMNS)
 _ROW, _TWO_LINES = 8.0, 13.0
 # a row of positions and its first column, mm, and how many columns have room, in tables side by side
-_POSITION, _FIRST, _MOST_COLUMNS = 5.0, 11.0, 8
+_POSITION, _MOST_COLUMNS = 5.0, 8
 # how many times as wide as the rows a table of positions is beside them at most
 _WIDEST = 4
 # decimals of a size and of a number without unit
@@ -232,13 +232,18 @@ def _write_value(canvas: Canvas, row: DataRow, cell: Box, told: Words) -> None:
 def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words, wide: int = 1) -> float:
     """Numbers in columns under their heads, in tables side by side; where they end, mm."""
     blocks = _blocks(table, wide)
-    side = WIDTH / _sides(table)
-    height, column = _POSITION * (1 + len(blocks[0])), (side - _FIRST) / (len(table.heads) - 1)
-    edges = [0.0, *(_FIRST + k * column for k in range(len(table.heads)))]
+    side, height = WIDTH / _sides(table), _POSITION * (1 + len(blocks[0]))
     heads = [", ".join(filter(None, (_head(name, told), unit_text(unit, told)))) for name, unit in table.heads]
-    for number, rows in enumerate(blocks):
+    written = [[[told.decimal(text) for text in position_texts(row)] for row in rows] for rows in blocks]
+    # what is left of the width all columns share
+    needed = [
+        max(text_width(text, SMALL_TEXT) for text in column) for column in zip(heads, *chain(*written), strict=True)
+    ]
+    more = (side - sum(needed)) / len(needed)
+    edges = [0.0, *accumulate(wide + more for wide in needed)]
+    for number, rows in enumerate(written):
         left = corner.real + number * side
-        for line, row in enumerate([heads, *([told.decimal(text) for text in position_texts(row)] for row in rows)]):
+        for line, row in enumerate([heads, *rows]):
             y = corner.imag - _POSITION * line
             canvas.line("TABLE" if line else "FRAME", complex(left, y), complex(left + side, y))
             for text, a, b in zip(row, edges, edges[1:], strict=False):

@@ -62,7 +62,7 @@ def markdown_table(table: Table, words: Words) -> list[str]:
 def html_table(table: Table, words: Words) -> str:
     """A table of a page."""
     head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
-    rows = ["".join(f"<td>{cell}</td>" for cell in row) for row in _rows(table, words)]
+    rows = ["".join(f"<td>{words.decimal(cell)}</td>" for cell in row) for row in _rows(table, words)]
     body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
     return f"<h2>{html.escape(words.say(table.title))}</h2>\n<table>\n{body}\n</table>"
 

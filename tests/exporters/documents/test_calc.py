@@ -376,6 +376,11 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     assert not re.search(r"\d,\d", made["text"])
     assert made["md"].startswith(f"# {title}")
     assert f'<html lang="{language}">' in made["html"]
+    # what is printed has the mark of its language, and true minus signs
+    results = [html.unescape(cell) for cell in re.findall(r'<td class="r">(.*?)</td>', made["html"])]
+    for result, step in zip(results, sheet.steps(), strict=True):
+        if not isinstance(step.value, str):
+            assert not re.search(r"-\d|\d\.\d" if language == "uk" else r"-\d|\d,\d", result), result
     for tag in ("html", "table", "tr", "td", "ul", "sub", "svg"):
         assert len(re.findall(rf"<{tag}[ >]", made["html"])) == made["html"].count(f"</{tag}>"), tag
     for note in map(words(language).say, sheet.notes):

@@ -696,6 +696,42 @@ def test_scenes_without_drawings_import_nothing_of_them() -> None:
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.parametrize("corner", [0.0, 8.0])
+def test_lines_of_sizes_of_a_flat_body_begin_at_its_outline(tmp_path: Path, corner: float) -> None:
+    """GOST 2.307: they began at the corners of the rectangle about it, where a frame with stems has nothing."""
+    cam = {key: value for key, value in PARTS["cam"].items() if key != "follower_radius"} | {"follower": "flat"}
+    yoke = {"kind": "yoke_frame", "of": "p", "wall": 10.0, "corner_radius": corner, "stem_below": 40.0}
+    raw = {"parts": {"p": cam, "yoke": yoke}, "exports": [{"format": "dxf", "purpose": "part", "parts": ["yoke"]}]}
+    (job,) = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
+    job.write({}, tmp_path / job.path)
+    space = ezdxf.readfile(tmp_path / job.path).modelspace()
+    paths = (make_path(e).flattening(1e-4) for e in space.query("*[layer=='OUTLINE']"))
+    edges = [shapely.LineString([(p.x, p.y) for p in path]) for path in paths]
+    found = []
+    for one in (one for one in space.query("DIMENSION") if one.dimtype == 0):
+        turn = complex(math.cos(math.radians(one.dxf.angle)), math.sin(math.radians(one.dxf.angle)))
+        at = complex(*one.dxf.defpoint.vec2)
+        for line in space.doc.blocks.get(one.dxf.geometry).query("LINE"):
+            ends = [(complex(*end.vec2) - at) / turn for end in (line.dxf.start, line.dxf.end)]
+            if abs((ends[0] - ends[1]).real) < 1e-6:
+                foot = at + turn * max(ends, key=lambda end: abs(end.imag))
+                found.append(min(edge.distance(shapely.Point(foot.real, foot.imag)) for edge in edges))
+    assert len(found) >= 16
+    # where an arc rounds a corner, lines begin at the corner
+    assert max(found) <= 1e-6 + corner / space.doc.header["$DIMLFAC"] * (math.sqrt(2) - 1)
+
+
+@pytest.mark.parametrize("over", [True, False])
+def test_a_wedge_cam_has_no_size_twice(tmp_path: Path, over: bool) -> None:
+    """The origin's distance stood twice where a hole is over it; GOST 2.307."""
+    wedge = {"kind": "wedge_cam", "follower": "roller", "follower_radius": 6.0, "lift": 20.0, "base_height": 18.0,
+             "phases": [{"move": "rise", "travel": 70.0, "law": "sine"}], "face_width": 6.0,
+             "run_in": 15.0, "holes": [{"x": 0.0 if over else 5.0, "y": 8.0, "diameter": 5.0}]}  # fmt: skip
+    space = ezdxf.readfile(drawn(tmp_path, wedge)).modelspace()
+    across = [round(one.get_measurement(), 6) for one in space.query("DIMENSION") if one.dimtype == 0]
+    assert len(across) == len(set(across))
+
+
 def test_holes_at_many_places_are_numbered_and_stand_in_a_table(tmp_path: Path) -> None:
     """As it was: 30 of them had a size for each x and each y, for which no paper had room."""
     places = [(7.0 * k - 100.0, 13.0 * k * k % 101 - 50.0) for k in range(1, 28)]

@@ -190,7 +190,11 @@ def test_words_stand_in_their_cells(name: str) -> None:
         stands(text(canvas, getattr(BLOCK, key), cell, corner), cell, corner, size)
     for word, cell in COUNTED[name]:
         stands(text(canvas, word, cell, corner), cell, corner, 2.5, middle=name != "1")
-    count = len(NAMED[name]) + 3 * len(SIGNING[name]) + len(FILLED[name]) + len(COUNTED[name])
+    # graphs 31 and 32 below the frame
+    copied, format_ = (next(t for t in canvas.texts if t.text == one) for one in ("Copied", "Format A3"))
+    assert corner.real < copied.box.left < copied.box.right < format_.box.left < format_.box.right <= 415.0 + 1e-9
+    assert all(0.0 < one.box.low < one.box.high < corner.imag for one in (copied, format_))
+    count = len(NAMED[name]) + 3 * len(SIGNING[name]) + len(FILLED[name]) + len(COUNTED[name]) + 2
     assert len([t for t in canvas.texts if t.runs and t.runs[0].way == 1]) == count
 
 
@@ -201,7 +205,8 @@ def test_the_only_sheet_has_no_number_and_nobody_no_date(name: str) -> None:
     signed = {"1": [*filter(None, ROLES), "Eve", "1.2"], "2": [*SIGNING["2"], "Eve", "1.2"], "2a": []}[name]
     counted = {"1": ["Sheet", "Sheets 1"], "2": ["1"], "2a": []}[name]
     entries = ["Gear"] if name != "2a" else []
-    assert told == sorted([*(word for word, _ in NAMED[name]), *signed, *counted, *entries])
+    below = ["Copied", "Format A3"]
+    assert told == sorted([*(word for word, _ in NAMED[name]), *signed, *counted, *entries, *below])
 
 
 def test_a_signature_without_a_date_leaves_its_cell_free() -> None:

@@ -55,7 +55,7 @@ CALLED = {
 SYMBOLS = {"s_a1": "s_c1", "h_a1": "h_c1", "s_c": "S_c"}
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
 BESIDE = {"number of teeth of the face gear", "teeth of the mate", "drawing of the mate", "centre distance",
-          "teeth of the other sprocket", "teeth of the other pulley",
+          "teeth of the other sprocket", "teeth of the other pulley", "chain",
           "number of starts of the worm", "left end of the plate", "its lower edge"}  # fmt: skip
 
 
@@ -414,6 +414,24 @@ groove_depth = 8.0
 lift = 10.0
 phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]
 """
+
+
+def test_a_sprocket_names_its_chain_and_a_plate_of_a_groove_cam_what_its_columns_are() -> None:
+    """GOST 2.408; the plate had the polar angle of a profile over columns of the roller's centre."""
+    made = [table for _, table, _ in tables("chain_drive").values()]
+    assert {row.value for table in made for row in table.parts[0] if row.name == "chain"} == {"08B-1", "2ПР-12,7-31,8"}
+    assert "x_p" in {row.symbol for row in tables("groove_cam")["ring"][1].parts[2]}
+
+
+@pytest.mark.parametrize("address", ["lantern_pair", "groove_cam"])
+def test_numbers_of_positions_are_not_squeezed_where_their_table_has_room(address: str) -> None:
+    """A first column of a fixed width had 196,25 in letters of 1.8 mm beside columns that were half empty."""
+    for _, table, _ in tables(address).values():
+        if table.positions is not None:
+            canvas = Canvas(420.0, 297.0, "A3")
+            draw_data_table(canvas, 400 + 290j, table, "uk")
+            written = [text for text in canvas.texts if text.text[:1].isdigit() and "," in text.text]
+            assert {run.height for text in written for run in text.runs} <= {2.5, 3.5}
 
 
 def test_a_table_names_what_its_own_cam_has() -> None:
