@@ -194,6 +194,8 @@ def draw_data_table(canvas: Canvas, corner: complex, table: DataTable, language:
             low = y - _height(row, told)
             name, symbol, value = (Box(a, low, b, y) for a, b in pairwise(edges))
             write_lines(canvas, _name(row, told), name, TEXT_HEIGHT, middle=False)
+            # symbols with long indices have more of their narrow column
+            symbol = replace(symbol, left=symbol.left - INDENT / 2, right=symbol.right + INDENT / 2)
             write_cell(canvas, lowered(symbol_text(row.symbol, told)) or "—", symbol, TEXT_HEIGHT)
             _write_value(canvas, row, value, told)
             y = low

@@ -54,9 +54,10 @@ class Swing(Record):
         return box.grown(0.12 * max(box.wide, box.tall))
 
     def draw(self, canvas: Canvas, paper: Paper, window: Box, asked: Asked) -> Drawn:
-        """Arms, the diagram, the region's border with its hatching, both axes; by hand the axes alone."""
+        """Arms, the diagram, the region's border with its hatching, both axes; by hand these on squared paper."""
         drawn, to, mount = Drawn(), paper.point, self.picture.cam.swing
         if asked.by_hand:
+            canvas.squares_about(to(0j), Box.of([to(corner) for corner in window.corners]))
             drawn.line(canvas, "AXIS", to(0j), to(self.pivot))
             for point in (0j, self.pivot):
                 canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))

@@ -107,18 +107,15 @@ def _rows(train: TrainPicture, told: list[str], language: str) -> list[Row]:
         Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth), answers=0)
         for part, rim in zip(told, train.rims, strict=True)
     ]
+    driver = train.links[train.driver]
+    others = [link for link in train.links if link is not driver]
+    rows += [Row(sheet_words(language, "held"), "", link.name, answers=0) for link in others if not link.rate]
     # practicum (2.1): each moving link has one axis; where meshes follow from others it counts too few
     freedom = sum(bool(link.rate) or link.carrier is not None for link in train.links) - len(train.meshes)
     if freedom > 0:
         rows.append(Row(sheet_words(language, "mobility"), "W", str(freedom)))
-    driver = train.links[train.driver]
-    for link in train.links:
-        if link is driver:
-            continue
-        name = f"u_{{{driver.name}{link.name}}}"
+    for link in others:
         if link.rate:
             ratio = decimal(f"{float(1 / link.rate):.7g}", language)
-            rows.append(Row(sheet_words(language, "train_ratio"), name, ratio))
-        else:
-            rows.append(Row(sheet_words(language, "held"), link.name, answers=0))
+            rows.append(Row(sheet_words(language, "train_ratio"), f"u_{{{driver.name}{link.name}}}", ratio))
     return rows

@@ -402,3 +402,22 @@ def test_what_is_given_stays_and_what_is_found_is_empty_on_every_sheet(part: dic
     # no other size in the pictures has a value; names of rows may end in S = 0
     sizes = {text.partition("=")[0].strip() for text in texts if re.match(r"\S+ ?= -?\d", text)}
     assert all(name.startswith("φ") for name in sizes - {text.partition("=")[0].strip() for text in given})
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("flat", [False, True])
+def test_the_joint_diagram_of_a_rocker_is_drawn_by_hand_on_squared_paper(flat: bool) -> None:
+    """Students had a bare line from the cam's axis to the pivot; on A3 the diagrams stand on a sheet of their own."""
+    other = {"follower": "flat", "follower_radius": None, "least_curvature_radius": 5.0,
+             "least_transmission_angle_deg": None}  # fmt: skip
+    part = {key: value for key, value in (ROCKER | (other if flat else {})).items() if value is not None}
+    plan = plan_build(cam_scene(part, cells="empty", **(ROUGH | {"paper": "A3"})), "t", [], [])
+    pages = [job.canvas for job in plan.sheets if job.path.endswith("svg")]
+    page = next(one for one in pages if {"O", "C"} <= {text.text for text in one.texts})
+    assert not any(text.text.startswith("φ") for text in page.texts)
+    squares = [s.curve for s in page.strokes if s.layer == "ORDINATE"]
+    pivot = next(s.curve.end for s in page.strokes if s.layer == "AXIS")
+    for way in (1, 1j):
+        across = [(c.start / way).real for c in squares if abs(((c.end - c.start) / way).real) < 1e-9]
+        assert len(across) > 5
+        assert min(across) < (pivot / way).real < max(across)

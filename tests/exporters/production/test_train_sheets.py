@@ -77,6 +77,18 @@ def test_the_ratio_of_james_is_read_off_the_written_file(tmp_path: Path, languag
         assert word in words
 
 
+def test_the_held_link_stands_among_what_is_given_before_what_follows_from_it() -> None:
+    """Its number stood in the column of symbols, after a ratio that holds only where it is held."""
+    sheet = train_sheet("set", double((40, 20, 30, 90), (False, True))[0], ["a", "b", "c", "d"], Asked("en", 1e-6))
+    texts = {text.text: text.box for text in sheet.canvas.texts}
+    held, ratio = texts["held link"], next(box for name, box in texts.items() if name.startswith("ratio"))
+    row = {name: box for name, box in texts.items() if abs(box.low - held.low) < 1e-6}
+    teeth = texts["a: number of teeth"]
+    assert teeth.low > held.low > ratio.low
+    value = next(box for name, box in texts.items() if name == "40" and abs(box.low - teeth.low) < 1e-6)
+    assert [box.left for name, box in row.items() if name == "3"] == [pytest.approx(value.left)]
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("teeth", "inner"),

@@ -434,6 +434,15 @@ def test_numbers_of_positions_are_not_squeezed_where_their_table_has_room(addres
             assert {run.height for text in written for run in text.runs} <= {2.5, 3.5}
 
 
+def test_symbols_of_one_table_are_of_one_size() -> None:
+    """h_xmn of a spiral bevel gear was in letters of 2.5 mm beside s_xmn in 3.5 mm."""
+    for _, table, _ in tables("spiral_bevel_pair").values():
+        canvas = Canvas(420.0, 297.0, "A3")
+        draw_data_table(canvas, 400 + 290j, table, "uk")
+        columns = [text for text in canvas.texts if 355.0 < text.box.middle.real < 365.0]
+        assert {max(run.height for run in text.runs) for text in columns} == {3.5}
+
+
 def test_a_table_names_what_its_own_cam_has() -> None:
     # before: a roller "or mushroom", the groove of an end cam, a minus before nothing
     both = tables("end", END_CAM)["a"][1], next(iter(tables("groove_cam").values()))[1]
