@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from geometry.base.errors import Nearest
 from parts.base.materials import material_told
 from parts.base.refusal import SceneError
-from parts.base.texts import words
+from parts.base.texts import standard_told, words
 from parts.drawing.names import drawn_names
 from parts.drawing.parts_list import SECTIONS, ListRow
 
@@ -74,4 +74,5 @@ def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
     if part.stock is not None and not (keys.designation or keys.standard or keys.position):
         name = f"{name} {part.stock.told(told)}"
     section = "standard" if keys.standard else "parts"
-    return section, "" if keys.standard else designation, name, keys.standard or "", material_told(part.material, told)
+    standard = told.say(standard_told(keys.standard)) if keys.standard else ""
+    return section, "" if keys.standard else designation, name, standard, material_told(part.material, told)

@@ -157,7 +157,7 @@ def test_the_sheet_is_form_1_of_gost_2_106(tmp_path: Path) -> None:
     xs = sorted({round(a.x, 6) for a, b in lines if abs(a.x - b.x) < 1e-9 and max(a.y, b.y) > top - 1 and a.x > 19.9})
     assert xs == pytest.approx([20, 26, 32, 40, 110, 173, 183, 205])
     texts = {e.dxf.text: e.dxf.insert for e in space.query("TEXT")}
-    for word in ("Рама", "Деталі", "Стандартні вироби", "Позначення", "ABC.01.00.00", "N. N.", "GOST 11738-84"):
+    for word in ("Рама", "Деталі", "Стандартні вироби", "Позначення", "ABC.01.00.00", "N. N.", "ГОСТ 11738-84"):
         assert word in texts, word
     # a head that is too long for its column is read from the right, as large as the others
     heads = {

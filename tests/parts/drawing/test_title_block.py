@@ -111,7 +111,9 @@ def test_long_words_stay_in_their_cells() -> None:
     for text in (t for t in canvas.texts if t.runs[0].way == 1):
         assert text.box.left >= canvas.frame.right - TITLE_BLOCK[0]
         assert text.box.right <= canvas.frame.right
-    names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49]
+    # graphs 31 and 32 stand below the frame
+    names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49
+             and t.text != "Copied"]  # fmt: skip
     assert all(canvas.frame.low <= t.runs[0].at.imag <= canvas.frame.low + 55 for t in names)
 
 
