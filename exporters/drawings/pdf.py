@@ -66,7 +66,8 @@ def write_pdf(file: Path, pages: Sequence[Canvas], title: str) -> dict[str, int]
                 path.style.stroke_dash_pattern = [d * POINT for d in style.dashes]
                 for curve in curves:
                     _add(path, curve, canvas.height)
-                context.add_item(path)
+                # not a deep copy of it: nobody else has it
+                context.add_item(path, False)
         for run in (run for text in canvas.texts for run in text.runs):
             pdf.set_font("sheet", size=run.height * POINT / CAPITAL)
             pdf.set_stretching(100.0)

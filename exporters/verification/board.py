@@ -18,7 +18,7 @@ from exporters.formats.readback import Loop, ReadOutlines
 from exporters.formats.reading import READERS
 from exporters.verification.outlines import stroke_failures, verify_loops
 from exporters.verification.verdict import Verdict, of_readable
-from geometry.base.record import Record
+from geometry.base.record import Record, made_once
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import edge_box, edge_points
 from geometry.plane.profile import Profile, Region
@@ -147,12 +147,15 @@ def _verdict(
 
 def _found(piece: BoardPiece, expected: ExpectedBoard) -> list[tuple[int, Real]]:
     """The number of each profile of a piece, and the box that its contour must have."""
-    region = expected.region(piece)
-    return [(k, _box(piece.moved(_points(p)))) for k, p in enumerate(region.profiles())]
+    return [(k, _box(piece.moved(_points(p)))) for k, p in enumerate(expected.region(piece).profiles())]
 
 
 def _points(profile: Profile) -> Complex:
-    """Points all along a profile."""
+    """Points all along a profile, once for all copies of a part."""
+    return made_once(profile, "all_along", lambda: _all_along(profile))
+
+
+def _all_along(profile: Profile) -> Complex:
     period = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, _BOX_POINTS)) for s in profile.period])
     return np.asarray((np.exp(1j * profile.pitch_angle * np.arange(profile.count))[:, None] * period).ravel())
 

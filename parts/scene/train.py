@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 
@@ -38,6 +39,8 @@ from parts.scene.instances import DriveSpec
 from parts.scene.standing import Instance
 
 Stand = Mapping[str, Instance]
+# of so many turns of a cam what follows is remembered
+_TURNS_KEPT = 4096
 
 
 class Turning(Record):
@@ -321,11 +324,14 @@ def _following(mating: Mating, stand: Stand, body: str, *, laid: bool = False) -
         place, turn = _pose_in(plane, own.scene_from_part)
     arm, lean = (end - place) * cmath.rect(1.0, -turn), last - turn
 
+    # pairs that are held one after the other ask for the same turns of a cam
+    followed = np.vectorize(
+        lru_cache(_TURNS_KEPT)(lambda z, a: mating.followed(start, (complex(z), before + float(a)))), [complex, float]
+    )
+
     def poses(given: list[tuple[Series, Series]]) -> list[tuple[Series, Series]]:
         ((origin, angle),) = given
-        at, turned = np.vectorize(
-            lambda z, a: mating.followed(start, (complex(z), before + float(a))), [complex, float]
-        )(origin[0], angle[0])
+        at, turned = followed(origin[0], angle[0])
         # how fast it goes is the cam's matter
         unknown = [np.full(np.shape(at), np.nan)] * (len(angle) - 1)
         return [([at + arm * np.exp(1j * turned), *unknown], [turned + lean, *unknown])]
