@@ -420,7 +420,8 @@ class InvoluteJoint(Record):
             pin_diameter = max(1, round(best / _PIN_STEP)) / round(1 / _PIN_STEP)
         involute = begins + way * pin_diameter / 2 / base
         if not involute > 0:
-            raise ParameterError("pin_diameter", pin_diameter, "pin_touches_no_side")
+            # there both touch on the base circle
+            raise ParameterError.beyond("pin_diameter", pin_diameter, "pin_touches_no_side", 2 * base * abs(begins))
         centre = base / math.cos(inverse_involute(involute))
         over = 2 * centre * (math.cos(angle / 2) if self.teeth % 2 else 1.0) + way * pin_diameter
         thickness = self.thickness + 2 * play / math.cos(self.pressure_angle)

@@ -249,6 +249,16 @@ def test_sets_whose_shifts_leave_no_tooth_are_told_without_shifts(
     assert "no shifts keep least_tip_thickness and least_contact_ratio" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(("pin", "offer", "beyond"), [(0.5, 0.5863, 0.5862), (5.0, 4.8551, 4.8552)])
+def test_pins_that_touch_no_spline_tell_the_least_and_the_most(
+    pin: float, offer: float, beyond: float, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of the shaft and of the hub; before, neither."""
+    for value, code in ((pin, 2), (offer, 0), (beyond, 2)):
+        assert main(["calc", "involute-spline", "size=50x2", f"pin_diameter={value}"]) == code
+    assert f"at {'least' if pin < offer else 'most'} {offer} mm works" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(("words", "told"), [
     # before: tracebacks of a number that Python does not read, and of a file without a name
     (["spur", f"module=1{'0' * 5000}", "number_of_teeth=20"], "must be a number; module m"),
