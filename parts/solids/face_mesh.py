@@ -44,8 +44,9 @@ _SINGLE, _DOUBLE, _ALONG, _ACROSS = 0.98, 0.55, 0.5, 0.4
 _FINER, _NARROW = 10, 0.5
 # by how much the sagitta of a patch is made smaller where it was passed: to so much of it, and at most to a part
 _SAFE, _LEAST_SHARE = 0.9, 0.3
-# by how much chords are made shorter where those of a face cross, of the sagitta
-_LESS = 0.25
+# by how much chords are made shorter where those of a face cross, of the sagitta; where a smaller one changed hardly
+# anything, since as few chords did for it
+_LESS, _HALF, _NO_BETTER = 0.25, 0.5, 0.99
 # what splines may take of it
 _SPLINES = 0.1
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
@@ -95,7 +96,7 @@ def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> Fac
     """
     target, error, crossed = tolerance, math.inf, None
     for _ in range(_MOST_ROUNDS):
-        made = _Mesher(solid, target, proof)
+        made, before = _Mesher(solid, target, proof), error
         try:
             error = made.run()
         except ThinWallError as thin:
@@ -106,7 +107,7 @@ def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> Fac
         if error <= tolerance:
             vertices, triangles = np.concatenate(made.points), np.concatenate(made.triangles)
             return FaceMesh(vertices, triangles, error, made.bound, tolerance)
-        target *= max(0.95 * tolerance / error, 0.1)
+        target *= max(0.95 * tolerance / error, 0.1) if error < _NO_BETTER * before else _HALF
     if crossed is not None:
         raise crossed
     raise ConvergenceError("mesh for the tolerance", error, _MOST_ROUNDS)
