@@ -232,7 +232,7 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
     """
     needed = max(scale, view.least / max(extent(view.strokes))) if view.least else scale
     own = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
-    larger = [s for s in reversed(SCALES) if own < s <= _LARGER * own] if view.title else []
+    larger = [s for s in reversed(SCALES) if own < s <= _LARGER * own] if view.title and not view.in_row else []
     for one in (own, *larger):
         title = view.title if one == scale else f"{view.title} ({scale_text(one, asked.language)})"
         if (found := laid(replace(view, title=title), one, asked.language, own=one != scale)) is not None:
@@ -249,7 +249,7 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas, *, apart: bo
         return None
     boxes, frame = [view.box for view in views], canvas.frame.grown(-_MARGIN)
     taken = [box.grown(_MARGIN) for box in corner.taken(canvas)]
-    loose = [k for k, view in enumerate(views) if apart and k and view.view.title]
+    loose = [k for k, view in enumerate(views) if apart and k and view.view.title and not view.view.in_row]
     row, x = dict[int, complex](), 0.0
     for k in range(len(views)):
         if k not in loose:

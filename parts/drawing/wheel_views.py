@@ -31,6 +31,7 @@ from parts.drawing.working import (
     THIN,
     TURNED,
     VISIBLE,
+    Cut,
     Note,
     Round,
     Side,
@@ -51,6 +52,8 @@ PITCH = "pitch"
 _NONE = 1e-9
 # mm within which a wall is an edge's own; the least turn of a corner that is seen, rad; digits of heights
 _NEAR, _SMOOTH, _DIGITS = 1e-6, 1e-6, 6
+# directions in which both sides of an outline are compared, rad; parts of what is equal
+_SIDES, _EVEN = (-1.3, -0.7, -0.2, 0.3, 0.8, 1.4), 1e-6
 
 
 class Crown(Record):
@@ -611,10 +614,10 @@ def _depth_limit(bore: KeywayBore | FlatBore, subject: Subject) -> str:
     return "" if found is None else f" +{subject.say(found)}"
 
 
-def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View:
+def bore_view(bore: Bore, subject: Subject, others: float | None = None, letter: int = 0) -> View:
     """The bore alone, upright, with the sizes of its keyway or flats.
 
-    ``others``: by how much views beside it are turned, rad; None: as it is.
+    ``others``: by how much views beside it are turned, rad; None: as it is. ``letter``: which names it, 0 the first.
     """
     angle = _UP - bore.angle
     turn = Placement2(angle)
@@ -634,7 +637,7 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
                 centre = complex(half - corner, up - corner)
                 rounds.append(_corner(centre, corner, (45.0, 30.0, 60.0)))
     elif isinstance(bore, SplineBore):
-        return _spline_view(bore, strokes, subject, others)
+        return _spline_view(bore, strokes, subject, others, letter)
     else:
         sizes.append(Size("bore.across_flats", -1j * down, 1j * up, "right", "", wishes.bore))
         rounded = max((curve for _, curve in strokes if isinstance(curve, Arc)), key=_leftmost, default=None)
@@ -642,25 +645,25 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
             way = math.degrees(cmath.phase(rounded.centre))
             angles = tuple(way + turn for turn in (0.0, 15.0, -15.0, 30.0, -30.0))
             rounds.append(_corner(rounded.centre, rounded.radius, angles))
-    name = _bore_title(angle, subject, others)
+    name = _bore_title(angle, subject, others, letter)
     # axes end at its walls: words of sizes stand close to them
     half = bore.diameter / 2 if isinstance(bore, KeywayBore | FlatBore) else bore.reach
     axes = Line(complex(-half), complex(half)), Line(-1j * down, 1j * up)
     return View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
 
 
-def _bore_title(angle: float, subject: Subject, others: float | None) -> str:
+def _bore_title(angle: float, subject: Subject, others: float | None, letter: int) -> str:
     """The letter of a view that is turned by an angle, rad, and by how much more than those beside it."""
     off = 0.0 if others is None else math.remainder(angle - others, math.tau)
     turned = f" {TURNED} {subject.say(abs(math.degrees(off)))}°" if abs(off) > _NONE else ""
-    return subject.letter() + turned
+    return subject.letter(letter) + turned
 
 
-def _spline_view(bore: SplineBore, strokes: list[Stroke], subject: Subject, others: float | None) -> View:
+def _spline_view(bore: SplineBore, strokes: list[Stroke], subject: Subject, others: float | None, letter: int) -> View:
     """Slots, upright, with what tells them."""
     sizes, rounds, note = spline_sizes(bore, subject, is_shaft=False)
     strokes += pitch_circle(bore.joint.reference_radius)
-    title = _bore_title(_UP - bore.angle, subject, others)
+    title = _bore_title(_UP - bore.angle, subject, others, letter)
     return View(tuple(strokes), (), axis_cross(bore.reach), sizes, rounds, (note,), title, _LEAST_BORE)
 
 
@@ -759,19 +762,34 @@ def _leftmost(corner: Arc) -> float:
 
 def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
     """Section, face, and the bore where it is not round."""
-    views = section_view(wheel, subject), face_view(wheel, subject)
-    return with_bore(views, wheel.holes.bore, levels(wheel.shape).hub[1], subject, wheel.turn)
+    section, face = section_view(wheel, subject), face_view(wheel, subject)
+    if not (even := _is_even(wheel)):
+        # a plane of no symmetry is marked (GOST 2.305)
+        letter = subject.letter()
+        section = replace(section, title=f"{letter}-{letter}", in_row=True)
+        face = replace(face, cuts=(Cut(0.0, letter),))
+    return with_bore((section, face), wheel.holes.bore, levels(wheel.shape).hub[1], subject, wheel.turn, int(not even))
+
+
+def _is_even(wheel: Wheel) -> bool:
+    """Whether both sides of the plane of its section are alike, but for bores and holes."""
+    outline = wheel.outline
+    if outline is None or wheel.stands or wheel.root is not None:
+        return True
+    sides = ((reach(outline, angle), reach(outline, math.pi - angle)) for angle in _SIDES)
+    return all(abs(one - other) < _EVEN * one for one, other in sides)
 
 
 def with_bore(
-    views: tuple[View, ...], bore: Bore | None, end: float, subject: Subject, others: float | None = None
-) -> tuple[View, ...]:
+    views: tuple[View, ...], bore: Bore | None, end: float, subject: Subject, others: float | None = None,
+    letter: int = 0,
+) -> tuple[View, ...]:  # fmt: skip
     """Views, the first along the axis, and that of a bore which is not round, seen from beyond an ``end`` of the axis.
 
-    ``others``: as of ``bore_view``.
+    ``others`` and ``letter``: as of ``bore_view``.
     """
     if bore is None or isinstance(bore, RoundBore):
         return views
-    arrow = Note(complex(end), subject.letter(), looks=-1)
+    arrow = Note(complex(end), subject.letter(letter), looks=-1)
     along = replace(views[0], notes=(*views[0].notes, arrow))
-    return along, *views[1:], bore_view(bore, subject, others)
+    return along, *views[1:], bore_view(bore, subject, others, letter)

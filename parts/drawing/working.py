@@ -156,7 +156,8 @@ class View(Record, dict=True):
     ``strokes``: curves by the layer of their line; ``hatched``: closed loops of lines and arcs, material between them.
     ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it, ``TURNED`` in it for that
     sign; ``least``: mm that it is high on paper at least, a view with a scale of its own. ``from_right``: it is seen
-    from the right of the main view, on whose left it stands (GOST 2.305).
+    from the right of the main view, on whose left it stands (GOST 2.305). ``in_row``: it stands in projection, although
+    it has letters.
     """
 
     strokes: tuple[Stroke, ...]
@@ -169,6 +170,7 @@ class View(Record, dict=True):
     least: float = 0.0
     cuts: tuple[Cut, ...] = ()
     from_right: bool = False
+    in_row: bool = False
     slants: tuple[Slant, ...] = ()
     angles: tuple[Angle, ...] = ()
 

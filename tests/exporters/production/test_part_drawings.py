@@ -386,6 +386,8 @@ def test_what_stands_behind_the_section_of_a_wheel_that_is_not_round_is_seen_in_
     upright = max((e for e in axes if e.start.x == e.end.x), key=lambda e: abs(e.end.y - e.start.y))
     lying = max((e for e in axes if e.start.y == e.end.y), key=lambda e: abs(e.end.x - e.start.x))
     middle, right = upright.start.x, max(lying.start.x, lying.end.x)
+    # but for the marks of the section, which stand over the axis
+    paths = [path for path in paths if any(abs(p.real - middle) > 1e-6 for p in path)]
     face, section = ([p for path in paths for p in path if (p.real < right) == way] for way in (True, False))
     behind = [p.imag for p in face if p.real >= middle]
     assert max(p.imag for p in section) == pytest.approx(max(behind), abs=1e-3)
@@ -395,6 +397,31 @@ def test_what_stands_behind_the_section_of_a_wheel_that_is_not_round_is_seen_in_
     assert min(upright.start.y, upright.end.y) < min(p.imag for p in face)
     assert max(upright.start.y, upright.end.y) > max(p.imag for p in face)
     assert min(lying.start.x, lying.end.x) < min(p.real for p in face) < max(p.real for p in face) < right
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("even", [True, False])
+def test_the_section_of_a_cam_is_marked_where_its_plane_is_none_of_symmetry(tmp_path: Path, even: bool) -> None:
+    """GOST 2.305: strokes and arrows over the face, both letters above the section; the bore has the next."""
+    rise = 180.0 if even else 100.0
+    phases = [{"move": "rise", "angle_deg": rise, "law": "sine"},
+              {"move": "return_", "angle_deg": 360.0 - rise, "law": "sine"}]  # fmt: skip
+    keyed = {"phases": phases, "bore": {"shape": "keyway", "diameter": 18.0, "standard": "GOST 23360"}}
+    for language, (first, second) in {"en": "AB", "uk": "АБ"}.items():
+        space = ezdxf.readfile(written(tmp_path, PARTS["cam"] | keyed, language)[0]).modelspace()
+        said = [(t.dxf.text.partition(" (")[0], t.dxf.insert) for t in space.query("TEXT")]
+        letters = [text for text, _ in said if set(text) <= {first, second, "-"} and text != "-"]
+        bore, marked = (first, []) if even else (second, [first, first, f"{first}-{first}"])
+        assert sorted(letters) == sorted([*marked, bore, bore])
+        if even:
+            continue
+        axes = [e.dxf for e in space.query("LINE[layer=='CENTRE']")]
+        upright = max((e for e in axes if e.start.x == e.end.x), key=lambda e: abs(e.end.y - e.start.y))
+        found = [e.dxf for e in space.query("LINE[layer=='OUTLINE']") if e.dxf.start.x == e.dxf.end.x]
+        assert sum(abs(one.start.x - upright.start.x) < 1e-6 for one in found) == 2
+        at = [place for text, place in said if text == first]
+        # seen from the left: letters stand there
+        assert all(place.x < upright.start.x for place in at)
 
 
 def test_refusals_name_their_key() -> None:
