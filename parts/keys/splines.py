@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 _OWN = ("teeth", "inner_diameter", "outer_diameter", "width")
-# sizes that nothing else of a splined step follows
-_SMALL = ("chamfer", "root_rounding")
+# sizes of a spline that may be less, down to 0
+_SMALL = ("chamfer", "root_rounding", "clearance")
 # a number with or without zones of tolerance after it, and a class of tolerance alone
 _FIT = r"[A-WYZa-wyz]{1,2}[1-9]\d?"
 _NUMBER = re.compile(rf"(\d+(?:\.\d+)?)({_FIT}(?:/{_FIT})?)?")
@@ -118,18 +119,19 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
             made.check()
         except ParameterError as refusal:
             key = refusal.name.removeprefix("bore.")
-            told = refusal if key not in _SMALL else ParameterError(key, refusal.value, refusal.code, self._less(key))
+            # of small sizes that are typed the one that alone is too much
+            small = [one for one in dict.fromkeys((key, *_SMALL)) if one in _SMALL and getattr(self, one, None)]
+            told = refusal
+            if (one := next((one for one in small if kept(partial(self._fits, one), 0.0)), None)) is not None:
+                key, given = one, getattr(self, one)
+                told = refusal.told_of(key, given, partial(nearest, partial(self._fits, key), given, 0.0))
             raise told.renamed(".".join(filter(None, (place, key)))) from refusal
         return made
 
-    def _less(self, key: str) -> Cure:
-        """How to find the greatest of a size that leaves an outline."""
-
-        def fits(value: float) -> bool:
-            changed(self, **{key: value}).bore().check()
-            return True
-
-        return lambda: nearest(fits, getattr(self, key), 0.0)
+    def _fits(self, key: str, value: float) -> bool:
+        """Whether there is an outline with another size."""
+        changed(self, **{key: value}).bore().check()
+        return True
 
     def probes(self, height: float) -> tuple[Probe, ...]:
         """What files of a part with such a bore must do where they are cut, mm."""

@@ -259,6 +259,19 @@ def test_pins_that_touch_no_spline_tell_the_least_and_the_most(
     assert f"at {'least' if pin < offer else 'most'} {offer} mm works" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("key", "value"), [("chamfer", 1.5), ("chamfer", 50.0), ("clearance", 2.0)])
+def test_small_sizes_of_a_spline_are_told_by_their_own_key(
+    key: str, value: float, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before, a traceback of a rounding that nobody typed, the designation blamed, no offer."""
+    asked = ["calc", "spline", "size=d-6x23x26"]
+    assert main([*asked, f"{key}={value}"]) == 2
+    line = capsys.readouterr().err
+    assert f"spline.{key} = {value}: " in line
+    offer = float(line.split("at most ")[1].split()[0])
+    assert [main([*asked, f"{key}={own}"]) for own in (offer, offer + 1e-3)] == [0, 2]
+
+
 @pytest.mark.parametrize(("words", "told"), [
     # before: tracebacks of a number that Python does not read, and of a file without a name
     (["spur", f"module=1{'0' * 5000}", "number_of_teeth=20"], "must be a number; module m"),
