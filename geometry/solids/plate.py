@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import moved
@@ -293,9 +294,14 @@ def meets_itself(edges: Sequence[Edge]) -> bool:
     """Whether two edges of a closed chain meet anywhere but in the corner that they share."""
     corners = np.array([start_point(e) for e in edges])
     near, count = _AT_END * float(np.abs(corners).max()), len(edges)
-    for k, edge in enumerate(edges):
-        others = np.delete(corners, [k, (k + 1) % count])
-        if others.size and float(_off_edge(edge, others, others).min()) <= near:
+    low, high = np.array([_box(e) for e in edges]).T
+    # a corner that lies on an edge lies in its box
+    lies = _overlap(low - near * (1 + 1j), high + near * (1 + 1j), corners, corners)
+    own = np.arange(count)
+    lies[own, own] = lies[own, (own + 1) % count] = False
+    for k in np.flatnonzero(lies.any(axis=1)).tolist():
+        others = corners[lies[k]]
+        if float(_off_edge(edges[k], others, others).min()) <= near:
             return True
     return crosses_itself(edges)
 
@@ -303,16 +309,38 @@ def meets_itself(edges: Sequence[Edge]) -> bool:
 def crosses_itself(edges: Sequence[Edge]) -> bool:
     """Whether two edges of a boundary meet within both at an angle."""
     low, high = np.array([_box(e) for e in edges]).T
-    size = float(np.abs([low, high]).max())
-    beside = (low.real[:, None] <= high.real) & (high.real[:, None] >= low.real)
-    beside &= (low.imag[:, None] <= high.imag) & (high.imag[:, None] >= low.imag)
-    for i, j in np.argwhere(np.triu(beside, 1)).tolist():
+    near = _AT_END * float(np.abs([low, high]).max())
+    pairs = np.argwhere(np.triu(_overlap(low, high, low, high), 1))
+    straight = np.array([isinstance(e, Line) for e in edges])[pairs].all(axis=1)
+    ends = np.array([(start_point(e), end_point(e)) for e in edges])
+    one_way, other = ends[pairs[straight]].transpose(1, 2, 0)
+    if _lines_cross(one_way, other, near):
+        return True
+    for i, j in pairs[~straight].tolist():
         one, two = edges[i], edges[j]
         for place in _crossings(one, two):
-            first, second = (_way_within(e, place, _AT_END * size) for e in (one, two))
+            first, second = (_way_within(e, place, near) for e in (one, two))
             if first is not None and second is not None and abs((first.conjugate() * second).imag) > _ANGLE:
                 return True
     return False
+
+
+def _overlap(low: Complex, high: Complex, lowest: Complex, highest: Complex) -> NDArray[np.bool_]:
+    """Which boxes (n,) have a place in common with which others (m,), by their corners: (n, m)."""
+    found = (low.real[:, None] <= highest.real) & (high.real[:, None] >= lowest.real)
+    return found & (low.imag[:, None] <= highest.imag) & (high.imag[:, None] >= lowest.imag)
+
+
+def _lines_cross(one: Complex, two: Complex, near: float) -> bool:
+    """Whether a line of a pair (start and end, (2, n)) crosses the other at an angle, off the ends of both."""
+    u, v, across = one[1] - one[0], two[1] - two[0], two[0] - one[0]
+    whole = (u.conj() * v).imag
+    angled = np.abs(whole) > _ANGLE * np.abs(u) * np.abs(v)
+    whole = np.where(angled, whole, 1.0)
+    # shares of both lines at which they cross
+    shares = np.array([(across.conj() * v).imag / whole, (across.conj() * u).imag / whole])
+    margins = near / np.where(angled, np.abs([u, v]), 1.0)
+    return bool((angled & ((shares > margins) & (shares < 1 - margins)).all(axis=0)).any())
 
 
 def _box(edge: Edge) -> tuple[complex, complex]:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import cmath
+import itertools
 import math
+from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct, field
+from msgspec.structs import replace
 
 from geometry.base.errors import GeometryError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
@@ -244,16 +247,37 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
         ends = ((complex(*at), slot.width / 2) for at in (slot.start, slot.end))
         found.append(Contour(belt(*ends)))
     for number, outline in enumerate(table.outlines, 1):
-        here = f"{place}.outlines[{number}]"
-        found.append(_outline(outline.points, outline.count, here))
-        if meets_itself(found[-1].edges):
-            key, value = ("points", len(outline.points)) if outline.count == 1 else ("count", outline.count)
-            raise ParameterError(f"{here}.{key}", value, "boundary_crosses_itself")
+        found.append(_outline(outline, f"{place}.outlines[{number}]"))
     return found
 
 
-def _outline(points: list[OutlinePoint], count: int, place: str) -> Contour:
-    """An outline as a contour, its corners so often about the axis.
+def _outline(outline: OutlineTable, place: str) -> Contour:
+    """An outline as a contour; corners that are repeated may be told clockwise, where only so they make one.
+
+    Raises
+    ------
+    ParameterError
+        An arc shorter than its chord, no outline, too many corners, or edges that meet.
+    """
+    from geometry.solids.plate import meets_itself
+
+    points, count = outline.points, outline.count
+    made = _repeated(points, count, place)
+    if not meets_itself(made.edges):
+        return made
+    ways = itertools.pairwise(complex(p.x, p.y) for p in points)
+    if count > 1 and sum(cmath.phase(b * a.conjugate()) for a, b in ways) < 0:
+        # an arc leads to the next corner: told backwards, to the one before
+        turned = [replace(p, arc=q.arc) for p, q in zip(points[::-1], [*points[-2::-1], points[-1]], strict=True)]
+        with suppress(ParameterError):
+            if not meets_itself((made := _repeated(turned, count, place)).edges):
+                return made
+    key, value = ("points", len(points)) if count == 1 else ("count", count)
+    raise ParameterError(f"{place}.{key}", value, "boundary_crosses_itself")
+
+
+def _repeated(points: list[OutlinePoint], count: int, place: str) -> Contour:
+    """Corners so often about the axis as a contour.
 
     Raises
     ------

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import itertools
 import math
 from typing import Any
 
@@ -373,6 +375,18 @@ def test_corners_stand_about_the_axis_as_often_as_they_are_told_to() -> None:
         rows += [(x * c - y * s, x * s + y * c, *arc) for x, y, *arc in rows[-3:]]
     full = volume(layer(outlines=[{"points": points(*rows)}]))
     assert volume(turned_on(5, *tooth)) == pytest.approx(full, rel=1e-12)
+
+
+def test_a_tooth_told_clockwise_is_turned_where_it_makes_no_outline_as_it_stands() -> None:
+    """Equal volumes either way round; a hooked tooth, which runs back a little, stands as it is told."""
+    tooth = ((8.0, 0.0, -2.0), (9.0, 1.0, 0.0), (9.0, 3.0, 4.0), (6.4, 4.8))
+    back = ((6.4, 4.8, 4.0), (9.0, 3.0, 0.0), (9.0, 1.0, -2.0), (8.0, 0.0))
+    assert volume(turned_on(5, *back)) == pytest.approx(volume(turned_on(5, *tooth)), rel=1e-12)
+    hook = (20.0, 0.0), (16.0, -1.0)
+    step = cmath.rect(1.0, math.tau / 16)
+    ends = (20 + 0j, 16 - 1j, 20 * step)
+    shoelace = sum((a.conjugate() * b).imag for a, b in itertools.pairwise(ends)) / 2
+    assert volume(turned_on(16, *hook)) == pytest.approx(16 * 2 * shoelace, rel=1e-12)
 
 
 def test_an_outline_that_meets_itself_is_refused_by_its_key() -> None:
