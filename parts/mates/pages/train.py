@@ -439,9 +439,9 @@ class _Page:
         for mesh in train.meshes:
             if train.carrier(mesh) == FRAME:
                 self._mesh(Leg(mesh, mesh.first, mesh.second, train.ratio(mesh)), "practicum (2.2)")
-        bodies = dict.fromkeys(train.bodies.values())
         moved = {
-            self._name(b): {self._name(d): self.moved.of(b).get(d, Fraction()) for d in self.drives} for b in bodies
+            name: {self._name(d): self.moved.of(body).get(d, Fraction()) for d in self.drives}
+            for name, body in train.bodies.items()
         }
         heads = ((N_("link"), ""), *((self._name(d), "") for d in self.drives))
         title = N_("Turns of every link for one turn of each driving link, all equations solved")

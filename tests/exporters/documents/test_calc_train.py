@@ -284,6 +284,18 @@ def test_speeds_of_a_textbook(case: dict[str, Any]) -> None:
         assert found == pytest.approx(printed, abs=0.5001 * 10 ** -case["digits"])
 
 
+def test_wheels_on_a_carriers_shaft_are_listed_with_its_turns() -> None:
+    teeth = {"1": 20, "2": 20, "3": 60, "4": 30, "5": 30, "2'": 20}
+    words = ("meshes=1-2, 2'-3 internal, 4-5", "carriers.H=2", "shafts=4-H", "speeds.1=10", "speeds.3=5")
+    data = calculated(*(f"teeth.{name}={z}" for name, z in teeth.items()), *words)
+    told = data["exact_turns"]
+    assert list(told) == [row["link"] for row in data["turns"]] == [*teeth, "H"]
+    # Willis, z_3 / z_1 = 3: n_H = (n_1 + 3 n_3) / 4
+    assert told["4"] == told["H"] == {"1": "1/4", "3": "3/4"}
+    assert told["2'"] == told["2"] == {"1": "-1/2", "3": "3/2"}
+    assert told["5"] == {"1": "-1/4", "3": "-3/4"}
+
+
 def test_nothing_heavy_is_loaded() -> None:
     script = (
         "import sys; from exporters.documents.topics import calculate; "
