@@ -7,11 +7,9 @@ the difference.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from exporters.documents.topics import sheet_of
 from parts.base.schema import fields_of
 from parts.base.texts import words
 from parts.pages.page import Sheet
@@ -46,11 +44,9 @@ def pages() -> dict[str, tuple[str, ...]]:
     return {" ".join(row): tuple(row) for row in [*found, *(("cam", *row) for row in cams), *rare]}
 
 
-@cache
 def page_of(page: str) -> Sheet:
     """A page, the same that the tests of pages make where they make it."""
-    topic, *rest = pages()[page]
-    return sheet_for(page) if page.split() == [topic, *rest] else sheet_of(topic, rest)[0]
+    return sheet_for(pages()[page])
 
 
 def cases() -> list[str]:

@@ -70,10 +70,14 @@ class Knots(Record, eq=False):
             values = raised
         return values, slopes, first - self.degree
 
+    def matrices(self, shares: Real) -> tuple[Real, Real]:
+        """What poles are multiplied by for points, and derivatives, at all spans' shares: (spans k, poles) each."""
+        return _matrices(self, shares.tobytes())
+
 
 @lru_cache(8)
 def _matrices(knots: Knots, places: bytes) -> tuple[Real, Real]:
-    """What poles are multiplied by for points, and derivatives, at all spans' shares: (spans k, poles) each."""
+    """Once for all faces of one net: the knots are the file's own object."""
     shares = np.frombuffer(places)
     values, slopes, first = knots.basis(shares)
     whole = np.zeros((2, len(first), len(shares), len(knots.knots) - knots.degree - 1))
@@ -96,7 +100,7 @@ class Patches(Record, eq=False):
 
         ``part``: of which surfaces.
         """
-        (u, du), (v, dv) = _matrices(self.along, along.tobytes()), _matrices(self.across, across.tobytes())
+        (u, du), (v, dv) = self.along.matrices(along), self.across.matrices(across)
         low, steep = (np.tensordot(self.poles[part], matrix, (1, 1)) for matrix in (u, du))
         found = [np.tensordot(x, y, (1, 1)).transpose(0, 2, 3, 1) for x, y in ((low, v), (steep, v), (low, dv))]
         return found[0], found[1], found[2]

@@ -158,10 +158,13 @@ SHEETS = [
 ]  # fmt: skip
 
 
+def sheet_for(words: str | tuple[str, ...]) -> Sheet:
+    """The sheet of a calculation, made once; a value of several words makes a tuple of them."""
+    return _sheet(*(words.split() if isinstance(words, str) else words))
+
+
 @cache
-def sheet_for(words: str) -> Sheet:
-    """The sheet of a calculation, made once."""
-    topic, *rest = words.split()
+def _sheet(topic: str, *rest: str) -> Sheet:
     return sheet_of(topic, rest)[0]
 
 
@@ -328,7 +331,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 
 @pytest.mark.parametrize("words", SHEETS, ids=ident)
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
-    sheet = sheet_for(" ".join(words))
+    sheet = sheet_for(words)
     checked = [step for step in sheet.steps() if step.formula]
     assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3, "thread": 8}.get(
         words[0], 8
@@ -353,7 +356,7 @@ def test_every_term_speaks_both_languages() -> None:
 
 @pytest.mark.parametrize("asked", SHEETS, ids=ident)
 def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...]) -> None:
-    sheet = sheet_for(" ".join(asked))
+    sheet = sheet_for(asked)
     texts = [sheet.title, *(s.title for s in sheet.sections), *sheet.notes]
     texts += [s.printed.why for s in sheet.steps() if s.printed]
     for text in texts:

@@ -134,7 +134,7 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b'{"parts": {}}', "scenes are TOML, not JSON"),
         (b"a = " + b"[" * 5000 + b"]" * 5000, "nested too deeply"),
         # before: in Python's words, by which setting of its own it would be read
-        (b"a = 1" + b"0" * 5000, "line 1: a number has 5001 digits; at most 4300 are read"),
+        (b"a = 1" + b"0" * 5000, "line 1: a number has 5001 digits, and no more than 4300 are read"),
         (b"#" * 5_000_000, "larger than"),
         (b"[parts]\n", "at least one part"),
         (b"parts = 3\n", "like [parts.gear]"),
