@@ -94,11 +94,14 @@ class PlateOutline(Record):
         """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
         sizes = [_size(hole) for hole in self.holes]
         wall = 2 * _LEAST_WALL * min([1.0, *sizes])
+        rooms = dict[str, tuple[float, float]]()
         for key, size, clear in zip(keys, sizes, _clearances(self.edges, self.holes).tolist(), strict=True):
-            if size > 0 and clear >= wall:
-                continue
-            room = size + 2 * (clear - wall)
-            if not (size > 0 and room >= _LEAST_HOLE):
+            if not (size > 0 and clear >= wall):
+                room = size + 2 * (clear - wall) if size > 0 else -math.inf
+                rooms[key] = size, min(room, rooms.get(key, (size, room))[1])
+        # several holes may have one key: the one that has least room tells what works
+        for key, (size, room) in rooms.items():
+            if not room >= _LEAST_HOLE:
                 raise ParameterError(key, size, "hole_lies_outside")
             raise ParameterError(key, size, "hole_reaches_edge", limit(room * (1 - 1e-6), size))
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from bisect import bisect_left
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from msgspec import Meta, Struct, field
 from msgspec.structs import replace
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import last_that_holds
 from parts.base.kind import HoleAt, Kind, Others
-from parts.keys.base import MOST_LENGTH, MadeKeys, mm, part_mm
+from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, MadeKeys, mm, part_mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
 
 if TYPE_CHECKING:
@@ -24,12 +26,40 @@ if TYPE_CHECKING:
 _Place = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 
 
+# holes of one grid
+_MOST_HOLES = 1000
+_COLUMNS = Meta(ge=1, le=_MOST_HOLES, description="a grid of equal holes: how many along x, the first one at `at`")
+_ROWS = Meta(ge=1, le=_MOST_HOLES, description="how many along y")
+_PITCH = part_mm("of a grid: from each hole to the next along x", above=0, example=25.0)
+_ROW_PITCH = part_mm("the same along y; default: pitch", above=0, example=25.0)
+
+
 class HoleAtTable(Struct, forbid_unknown_fields=True):
-    """A round hole anywhere, or on the axis of an instance."""
+    """A round hole anywhere, or on the axis of an instance; or a grid of them."""
 
     diameter: Annotated[float, part_mm("diameter of the hole", above=0)]
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] | None = None
     axis_of: Annotated[str, Meta(description="the instance whose axle it takes, in place of at")] | None = None
+    columns: Annotated[int, _COLUMNS] = 1
+    rows: Annotated[int, _ROWS] = 1
+    pitch: Annotated[float, _PITCH] | None = None
+    row_pitch: Annotated[float, _ROW_PITCH] | None = None
+
+    @property
+    def count(self) -> int:
+        """How many holes there are."""
+        return self.columns * self.rows
+
+    @property
+    def steps(self) -> tuple[float, float]:
+        """From hole to hole along x and along y, mm."""
+        return self.pitch or self.row_pitch or 0.0, self.row_pitch or self.pitch or 0.0
+
+    def centres(self) -> list[complex]:
+        """Where its holes stand, row by row; none while its axle is not known."""
+        x, y = self.steps
+        return [complex(*self.at) + complex(i * x, j * y) for j in range(self.rows) for i in range(self.columns)
+                ] if self.at is not None else []  # fmt: skip
 
 
 class SlotTable(Struct, forbid_unknown_fields=True):
@@ -94,7 +124,7 @@ def checked_outline(
     try:
         whole.check_holes(names)
     except ParameterError as refusal:
-        raise _by_place(keys, refusal) from refusal
+        raise _by_place(keys, refusal, partial(_holds, edges, own)) from refusal
     for number, mark in enumerate(keys.engraved, 1):
         check_depth(f"engraved[{number}]", mark.depth, keys.face_width)
     return PlateOutline(edges, whole.holes[: len(names) - len(keys.engraved)])
@@ -106,15 +136,88 @@ def outline_with_marks(
     """Edges with all that the keys cut and, behind that, engrave, not yet checked; and the key of each one's size."""
     from geometry.solids.plate import PlateHole, PlateOutline
 
+    for number, table in enumerate(keys.holes, 1):
+        if table.count > 1 or table.pitch is not None or table.row_pitch is not None:
+            _check_grid(keys, number, partial(_holds, edges, own))
     # a hole for an axle comes when that stands
-    placed = {i: PlateHole(complex(*h.at), h.diameter) for i, h in enumerate(keys.holes, 1) if h.at is not None}
-    holes = (*(PlateHole(at, d) for _, at, d in own), *placed.values())
-    names = [*(key for key, _, _ in own), *(f"holes[{i}].diameter" for i in placed)]
+    placed = [(i, PlateHole(at, h.diameter)) for i, h in enumerate(keys.holes, 1) for at in h.centres()]
+    holes = (*(PlateHole(at, d) for _, at, d in own), *(hole for _, hole in placed))
+    names = [*(key for key, _, _ in own), *(f"holes[{i}].diameter" for i, _ in placed)]
     slots, marks = (_slots(key, getattr(keys, key), names) for key in ("slots", "engraved"))
     return PlateOutline(edges, (*holes, *slots, *marks)), names
 
 
-def _by_place(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
+def _with_hole(keys: FlatKeys, number: int, key: str, value: float) -> FlatKeys:
+    """The keys, one of a table of holes of another value."""
+    holes = [replace(table, **{key: value}) if k == number else table for k, table in enumerate(keys.holes, 1)]
+    return replace(keys, holes=holes)
+
+
+def _check_grid(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) -> None:
+    """Refuse a grid of holes that do not know their pitch or meet, and keys of a grid where there is none.
+
+    Raises
+    ------
+    ParameterError
+        With the key.
+    """
+    table, place = keys.holes[number - 1], f"holes[{number}]"
+    if table.count > _MOST_HOLES:
+        most = limit(_MOST_HOLES // table.columns, table.rows)
+        raise ParameterError(f"{place}.rows", table.rows, "grid_of_too_many_holes", most, most=_MOST_HOLES)
+    least = rounded(table.diameter + 2 * LEAST_LENGTH, up=True, digits=6)
+    pitches = {"pitch": (table.pitch, "columns"), "row_pitch": (table.row_pitch, "rows")}
+    for (key, (pitch, many)), step in zip(pitches.items(), table.steps, strict=True):
+        count = getattr(table, many)
+        # one pitch serves both ways
+        if pitch is not None and count == 1 and (key == "row_pitch" or table.rows == 1):
+            raise ParameterError(f"{place}.{key}", pitch, "only_of_a_grid", Nearest(None), key=many)
+        if count == 1:
+            continue
+        if table.axis_of is not None:
+            raise ParameterError(
+                f"{place}.{many}", count, "grid_on_axle", Nearest(1, "at_most") if count == table.count else None
+            )
+        if step == 0:
+            raise ParameterError(f"{place}.pitch", None, "grid_needs_pitch", count=count)
+        if step < least:
+            typed = key if pitch is not None or table.pitch is None else "pitch"
+            apart = Nearest(least, "at_least") if holds(_with_hole(keys, number, typed, least)) else None
+            raise ParameterError(f"{place}.{typed}", step, "grid_holes_meet", apart)
+
+
+def _holds(edges: tuple[Edge, ...], own: Sequence[tuple[str, complex, float]], keys: FlatKeys) -> bool:
+    """Whether edges have room for all that the keys cut and engrave."""
+    try:
+        whole, names = outline_with_marks(edges, keys, own)
+        whole.check_holes(names)
+    except ParameterError:
+        return False
+    return True
+
+
+def _grid_outside(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) -> ParameterError:
+    """The refusal of a grid that does not lie inside as a whole: by the first of its keys that alone can cure it."""
+    table, place = keys.holes[number - 1], f"holes[{number}]"
+
+    def works(key: str, value: float) -> bool:
+        return holds(_with_hole(keys, number, key, value))
+
+    for key in ("columns", "rows"):
+        given = getattr(table, key)
+        if most := bisect_left(range(1, given), True, key=lambda n: not works(key, n)):
+            return ParameterError(f"{place}.{key}", given, "grid_lies_outside", Nearest(most, "at_most"))
+    # one that serves both ways may cure what neither number does
+    least = rounded(table.diameter + 2 * LEAST_LENGTH, up=True, digits=6)
+    if table.pitch is not None and works("pitch", least):
+        found = limit(last_that_holds(partial(works, "pitch"), table.pitch, least, steps=30), table.pitch, digits=6)
+        return ParameterError(f"{place}.pitch", table.pitch, "grid_lies_outside", found)
+    return ParameterError(f"{place}.at", [*(table.at or ())], "grid_lies_outside")
+
+
+def _by_place(
+    keys: FlatKeys, refusal: ParameterError, holds: Callable[[FlatKeys], bool] = lambda _: False
+) -> ParameterError:
     """A refusal of what lies wrong in the key of its place, not of its size; a hole for an axle cannot be moved."""
     found = re.fullmatch(r"(?P<place>(?P<key>holes|slots|engraved)\[(?P<number>\d+)\])\.\w+", refusal.name)
     if found is None:
@@ -126,6 +229,8 @@ def _by_place(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
         return ParameterError(f"{found['place']}.axis_of", table.axis_of, "hole_of_axle_outside", **told)
     if refusal.code != "hole_lies_outside":
         return refusal
+    if isinstance(table, HoleAtTable) and table.count > 1:
+        return _grid_outside(keys, int(found["number"]), holds)
     if isinstance(table, SlotTable):
         return ParameterError(found["place"], {"start": [*table.start], "end": [*table.end]}, refusal.code)
     return ParameterError(f"{found['place']}.at", [*table.at], refusal.code)
@@ -164,7 +269,8 @@ class Extruded(Kind[K, T]):
 
     def holes_at(self, keys: K) -> Sequence[HoleAt]:
         """Its holes; those for axles get their places when these stand."""
-        return [HoleAt(None if h.at is None else complex(*h.at), h.diameter, h.axis_of) for h in keys.holes]
+        waiting: list[complex | None] = [None]
+        return [HoleAt(at, h.diameter, h.axis_of) for h in keys.holes for at in h.centres() or waiting]
 
     def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
         """The outline moved, and what is engraved in it."""
@@ -228,7 +334,8 @@ class Plate(Flat[PlateSpec]):
                 return False
             return True
 
-        reach = max(abs(a - c) + h.diameter for h in keys.holes if h.at for a, c in zip(h.at, keys.centre, strict=True))
+        ways = ((at - complex(*keys.centre), h.diameter) for h in keys.holes for at in h.centres())
+        reach = max(max(abs(way.real), abs(way.imag)) + diameter for way, diameter in ways)
         most = min(max(given, 2 * reach), MOST_LENGTH)
         return limit(last_that_holds(fits, given, most, steps=30), given) if fits(most) else None
 

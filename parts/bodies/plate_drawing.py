@@ -13,7 +13,7 @@ from geometry.plane.profile import Label, Profile, Region
 from geometry.solids.windows import HoleCircle
 from parts.base.part import Part
 from parts.base.texts import N_
-from parts.bodies.plate import FlatKeys
+from parts.bodies.plate import FlatKeys, HoleAtTable
 from parts.drawing.extent import farthest
 from parts.drawing.wheel_views import axis_along, circle_of
 from parts.drawing.working import (
@@ -59,14 +59,18 @@ def part_drawing(
     for profile in (*slots, *region.marks):
         strokes += [(VISIBLE, s.curve) for s in profile.segments()]
     strokes += [(AXIS, circle_of(one.circle / 2)) for one in circles]
-    loose = _loose(round_holes, circles)
+    loose, grids = _loose(round_holes, circles), _grids(subject.part)
+    gridded = [at for one in grids for at in one.centres()]
+    loose = [one for one in loose if not _is_among(one[0], gridded)]
     axes = [Line(centre - r * way, centre + r * way) for centre, r in loose for way in (1, 1j)]
     listed = listed_holes(subject.part, circles)
     loose, round_holes = ([one for one in some if one not in listed] for some in (loose, round_holes))
+    axes += [line for one in grids for line in _grid_axes(one)]
     axes += [axis_along(centre, one.diameter / 2) for one in circles for centre in one.centres()]
     chains = [[s.curve for s in profile.segments()] for profile in slots]
     whole = circle_from(region.outer)
     centres = [*(() if circles else corners(curves)), *(centre for centre, _ in loose)]
+    centres += [one.centres()[0] for one in grids]
     for chain in chains:
         centres += [*corners(chain), *(curve.centre for curve in chain if isinstance(curve, Arc))]
     left, right, foot, top = (edge(curves, *ways) for ways in ((-1, -1j), (1, -1j), (-1j, -1), (1j, -1)))
@@ -78,6 +82,7 @@ def part_drawing(
     datum = datum_of(region, circles)[0]
     starts = (datum, datum) if whole or circles else (left, foot)
     sizes += place_sizes(datum, starts, centres, (low, high))
+    sizes += [size for k, one in enumerate(grids, 1) for size in _grid_sizes(one, f"grid.{k}", subject)]
     rounds = [
         *diameters(round_holes, subject.language),
         *radii([*([] if whole else [curves]), *chains], subject.language),
@@ -122,13 +127,49 @@ def _round_holes(region: Region) -> list[tuple[complex, float]]:
 def _loose(holes: Sequence[tuple[complex, float]], circles: Sequence[HoleCircle]) -> list[tuple[complex, float]]:
     """Those of some holes that stand on no circle."""
     circled = [centre for one in circles for centre in one.centres()]
-    return [(c, r) for c, r in holes if all(abs(c - other) > _NEAR for other in circled)]
+    return [(c, r) for c, r in holes if not _is_among(c, circled)]
+
+
+def _is_among(place: complex, others: Sequence[complex]) -> bool:
+    """Whether a place is one of others."""
+    return any(abs(place - other) <= _NEAR for other in others)
+
+
+def _grids(part: Part) -> list[HoleAtTable]:
+    """Its grids of holes."""
+    return [one for one in part.keys.holes if one.count > 1] if isinstance(part.keys, FlatKeys) else []
+
+
+def _grid_axes(grid: HoleAtTable) -> Iterator[Line]:
+    """An axis through each column and each row."""
+    centres, radius = grid.centres(), grid.diameter / 2
+    for low, high, way in (
+        (centres[: grid.columns], centres[-grid.columns :], 1j),
+        (centres[:: grid.columns], centres[grid.columns - 1 :: grid.columns], 1),
+    ):
+        yield from (Line(a - radius * way, b + radius * way) for a, b in zip(low, high, strict=True))
+
+
+def _grid_sizes(grid: HoleAtTable, name: str, subject: Subject) -> Iterator[Size]:
+    """Along both axes from the first hole to the next, and to the last as so many steps of it; GOST 2.307."""
+    first = grid.centres()[0]
+    ways: tuple[tuple[str, int, complex, Side], ...] = (
+        ("columns", grid.columns, complex(grid.steps[0]), "below"),
+        ("rows", grid.rows, 1j * grid.steps[1], "left"),
+    )
+    for key, count, step, side in ways:
+        if count > 1:
+            yield Size(f"{name}.{key}.pitch", first, first + step, side)
+        if count > 2:
+            before = f"{count - 1}×{subject.say(abs(step))}="
+            yield Size(f"{name}.{key}", first, first + (count - 1) * step, side, before)
 
 
 def listed_holes(part: Part, circles: Sequence[HoleCircle] = ()) -> list[tuple[complex, float]]:
     """The round holes that a table tells, from the left: where they stand at more places than sizes show well."""
-    keys = part.keys
+    keys, gridded = part.keys, [at for one in _grids(part) for at in one.centres()]
     loose = _loose(_round_holes(part.section(0.0).region), circles)
+    loose = [one for one in loose if not _is_among(one[0], gridded)]
     places = {round(c.real, _DIGITS) for c, _ in loose}, {round(c.imag, _DIGITS) for c, _ in loose}
     # engraved slots have a table of their own
     if sum(map(len, places)) <= _MOST or (isinstance(keys, FlatKeys) and keys.engraved):

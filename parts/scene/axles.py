@@ -27,19 +27,19 @@ def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: st
     """
     found = False
     for part in parts.values():
-        for number, hole in enumerate(part.made_by.holes_at(part.keys), 1):
+        for number, hole in enumerate(part.keys.holes if isinstance(part.keys, FlatKeys) else (), 1):
             place = f"parts.{part.id}.holes[{number}]"
-            if hole.axle is None and hole.centre is None:
+            if hole.axis_of is None and hole.at is None:
                 raise SceneError(source, f"{place}.at", None, "no_place_of_hole")
-            if hole.axle is None:
+            if hole.axis_of is None:
                 continue
-            if hole.centre is not None:
+            if hole.at is not None:
                 told = {"one": "at", "other": "axis_of"}
-                raise SceneError(source, f"{place}.axis_of", hole.axle, "either_key", REMOVED, **told)
+                raise SceneError(source, f"{place}.axis_of", hole.axis_of, "either_key", REMOVED, **told)
             others = {key: spec for key, spec in instances.items() if spec.part != part.id}
-            if hole.axle in instances and hole.axle not in others:
-                raise SceneError(source, f"{place}.axis_of", hole.axle, "own_axis")
-            check_instance(hole.axle, others, source, f"{place}.axis_of")
+            if hole.axis_of in instances and hole.axis_of not in others:
+                raise SceneError(source, f"{place}.axis_of", hole.axis_of, "own_axis")
+            check_instance(hole.axis_of, others, source, f"{place}.axis_of")
             found = True
     return found
 

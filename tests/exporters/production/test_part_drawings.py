@@ -748,6 +748,18 @@ def test_lines_of_sizes_of_a_flat_body_begin_at_its_outline(tmp_path: Path, corn
     assert max(found) <= 1e-6 + corner / space.doc.header["$DIMLFAC"] * (math.sqrt(2) - 1)
 
 
+def test_a_grid_of_holes_is_told_by_its_step_and_so_many_steps(tmp_path: Path) -> None:
+    """GOST 2.307: the size between neighbours, and that between the outermost as a product; no table of holes."""
+    grid = {"at": [12.5, 12.5], "diameter": 6.2, "columns": 10, "rows": 6, "pitch": 25.0, "row_pitch": 20.0}
+    part = {"kind": "plate", "width": 250.0, "height": 150.0, "centre": [125.0, 75.0], "holes": [grid]}
+    space = ezdxf.readfile(drawn(tmp_path, part)).modelspace()
+    sizes = sorted((round(d.get_measurement(), 6), d.dxf.text) for d in space.query("DIMENSION") if d.dimtype == 0)
+    assert sizes == [(6.2, "60 holes %%c<>"), (12.5, "<>"), (12.5, "<>"), (20.0, "<>"), (25.0, "<>"),
+                     (100.0, "5×20=<>"), (150.0, "<>"), (225.0, "9×25=<>"), (250.0, "<>")]  # fmt: skip
+    # an axis through each column and row
+    assert len(space.query("LINE[layer=='CENTRE']")) == 16
+
+
 @pytest.mark.parametrize("over", [True, False])
 def test_a_wedge_cam_has_no_size_twice(tmp_path: Path, over: bool) -> None:
     """The origin's distance stood twice where a hole is over it; GOST 2.307."""

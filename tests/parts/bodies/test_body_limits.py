@@ -453,3 +453,43 @@ def test_what_is_cut_where_no_part_is_is_told_by_its_place() -> None:
     within = refused(scene_of(PLATE | {"holes": [{"at": [20.0, 0.0], "diameter": 30.0}]}))
     assert within is not None
     assert (within.key, within.code) == ("parts.p.holes[1].diameter", "hole_reaches_edge")
+
+
+GRID = {"at": [-25.0, -15.0], "diameter": 4.0, "columns": 6, "rows": 4, "pitch": 10.0}
+
+
+def test_a_grid_of_holes_is_what_holes_typed_one_by_one_are() -> None:
+    places = [[-25.0 + 10.0 * i, -15.0 + 8.0 * j] for j in range(4) for i in range(6)]
+    typed = PLATE | {"holes": [{"at": at, "diameter": 4.0} for at in places]}
+    assert volume(PLATE | {"holes": [GRID | {"row_pitch": 8.0}]}) == pytest.approx(volume(typed), rel=1e-13)
+    row = PLATE | {"holes": [GRID | {"columns": 1, "rows": 3, "pitch": 12.0}]}
+    assert volume(row) == pytest.approx(volume(PLATE) - 3 * 4 * math.pi * PLATE["face_width"], rel=1e-12)
+
+
+def test_a_grid_of_holes_is_refused_by_the_key_that_cures_it() -> None:
+    """In a plate of 60 x 40 with holes 5 mm off its edge."""
+
+    def scene(**more: Any) -> dict[str, Any]:
+        return scene_of(PLATE | {"holes": [{k: v for k, v in (GRID | more).items() if v is not None}]})
+
+    def place(key: str) -> str:
+        return f"parts.p.holes[1].{key}"
+
+    check_refused(scene(columns=7), place("columns"), 7, "grid_lies_outside", 6)
+    check_refused(scene(rows=9), place("rows"), 9, "grid_lies_outside", 4)
+    check_offer(scene(pitch=11.0), place("pitch"), 11.0, "grid_lies_outside", 53 / 5, "at_most")
+    check_refused(scene(row_pitch=12.0), place("rows"), 4, "grid_lies_outside", 3)
+    check_offer(scene(pitch=3.0), place("pitch"), 3.0, "grid_holes_meet", 4.0, "at_least")
+    large = scene(at=[-20.0, -10.0], columns=2, rows=2, diameter=12.0)
+    check_offer(large, place("pitch"), 10.0, "grid_holes_meet", 12.0, "at_least")
+    for wrong, key, code in (
+        (scene(pitch=None), "pitch", "grid_needs_pitch"),
+        (scene(columns=40, rows=30), "rows", "grid_of_too_many_holes"),
+        (scene(columns=1, rows=1), "pitch", "only_of_a_grid"),
+        (scene(rows=1, row_pitch=5.0), "row_pitch", "only_of_a_grid"),
+        (scene(at=[-40.0, 0.0]), "at", "grid_lies_outside"),
+        (scene(at=None, axis_of="q") | {"instances": {"q": {"part": "p"}}}, "columns", "grid_on_axle"),
+    ):
+        found = refused(wrong)
+        assert found is not None
+        assert (found.key, found.code) == (place(key), code)
