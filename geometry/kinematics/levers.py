@@ -23,6 +23,8 @@ Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 # what an offered length leaves, parts of it: at the very limit the links stand in one line
 _ROOM = 1e-6
+# parts of its links by which a group may still be apart where it is at its limit: a root has half of the digits
+_AT_LIMIT = 1e-7
 
 
 class Stone(Record):
@@ -117,10 +119,16 @@ class Levers(Record):
         Raises
         ------
         ParameterError
-            What ``closed`` raises.
+            What ``closed`` raises, where the links do not close at one of them.
         """
-        closed(self)
-        phi = np.asarray(angles, dtype=float)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            found = self._moved(np.asarray(angles, dtype=float))
+        if not all(np.isfinite(series[2]).all() for series in found.points.values()):
+            closed(self)
+        return found
+
+    def _moved(self, phi: Real) -> Moved:
+        """The same, not a number where the links do not close."""
         w = 1j * self.speed
         crank = self.crank * np.exp(1j * phi)
         end: Series = [crank, w * crank, (w * w + 1j * self.change) * crank / 2]
@@ -170,6 +178,89 @@ def swing(levers: Levers) -> tuple[float, float]:
     low, high = (math.acos(cosine) for cosine in ends)
     # on the side of O3O1 on which B stands
     return (home + low, home + high) if first.side > 0 else (home - high, home - low)
+
+
+def ranges(levers: Levers) -> list[tuple[float, float]]:
+    """The angles of the crank, rad, between which the links close, without a limit between; a whole turn is (0, 2 pi).
+
+    A group is at a limit where its links stand in one line, or a rod across its guide; at some of them, found in closed
+    form, the links close on both sides.
+    """
+    marks = np.unique(np.mod(_limits(levers), 2 * math.pi))
+    marks = marks[np.abs(_spare(levers, marks)) <= _AT_LIMIT]
+    if not marks.size:
+        return [(0.0, 2 * math.pi)] if _spare(levers, np.zeros(1))[0] > 0 else []
+    ends = np.append(marks[1:], marks[0] + 2 * math.pi)
+    inside = _spare(levers, (marks + ends) / 2) > _AT_LIMIT
+    return [(float(low), float(high)) for low, high in zip(marks[inside], ends[inside], strict=True)]
+
+
+def _limits(levers: Levers) -> list[float]:
+    """Angles of the crank at which a group may be at a limit, rad."""
+    first, second, a = levers.first, levers.second, levers.crank
+    if isinstance(first, Slider):
+        return [x for k in (-1, 1) for x in _level(a, _height(first) + k * first.rod, first.angle)]
+    far, home = abs(first.pivot), cmath.phase(first.pivot)
+    found = [home]
+    if isinstance(first, Rods):
+        found = [x for k in (-1, 1) for x in _spanned(far, a, first.rod + k * first.rocker, home)]
+    if second is None:
+        return found
+    arm, turn = abs(levers.arm), cmath.phase(levers.arm)
+    if isinstance(second, Slider):
+        height = ((second.on - first.pivot) * cmath.exp(-1j * second.angle)).imag
+        swung = [x for k in (-1, 1) for x in _level(arm, height + k * second.rod, second.angle)]
+    else:
+        apart = second.pivot - first.pivot
+        swung = [
+            x for k in (-1, 1) for x in _spanned(abs(apart), arm, second.rod + k * second.rocker, cmath.phase(apart))
+        ]
+    for psi in (x - turn for x in swung):
+        if isinstance(first, Stone):
+            found += _level(a, (first.pivot * cmath.exp(-1j * psi)).imag, psi)
+        else:
+            end = first.pivot + cmath.rect(first.rocker, psi)
+            found += _spanned(abs(end), a, first.rod, cmath.phase(end))
+    return found
+
+
+def _spare(levers: Levers, angles: Real) -> Real:
+    """By what part of its links the group that is nearest to a limit is within it; below 0 where it does not close."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        at = levers._moved(angles)
+    spare = _room(levers.first, at.place("A"))
+    if levers.second is None:
+        return spare
+    return np.where(spare > 0, np.fmin(spare, _room(levers.second, at.place("C"))), spare)
+
+
+def _room(group: Stone | Rods | Slider, joint: Complex) -> Real:
+    """By what part of its links a group is within its limits, with its joint at these places."""
+    if isinstance(group, Slider):
+        return 1 - np.abs(((joint - group.on) * cmath.exp(-1j * group.angle)).imag) / group.rod
+    apart = np.abs(joint - group.pivot)
+    if isinstance(group, Stone):
+        return np.asarray(apart / abs(group.pivot))
+    links = group.rod, group.rocker
+    return np.minimum(sum(links) - apart, apart - abs(links[0] - links[1])) / sum(links)
+
+
+def _level(arm: float, height: float, along: float) -> list[float]:
+    """Directions of an arm about a pivot whose end stands at a height above a line through it."""
+    return _about(height / arm, along + math.pi / 2)
+
+
+def _spanned(far: float, arm: float, apart: float, way: float) -> list[float]:
+    """Directions of an arm whose end is so far from a point, which lies ``far`` off that way."""
+    return _about((far**2 + arm**2 - apart**2) / (2 * far * arm), way) if far else []
+
+
+def _about(cosine: float, way: float) -> list[float]:
+    """Directions with this cosine about a way; at its end rounding does not count."""
+    if abs(cosine) > 1 + 1e-12:
+        return []
+    half = math.acos(max(-1.0, min(1.0, cosine)))
+    return [way - half, way + half]
 
 
 def closed(levers: Levers) -> None:

@@ -43,7 +43,7 @@ _SOURCE = "guidelines, 4.19"
 _OF_LINKS = ("masses", "inertias", "centres", "centre_offsets")
 # a group whose rods meet at a smaller sine holds nothing that a number could tell
 _DEAD = 1e-3
-# parts of its greatest speed at which an output stands, its resistance being about to turn round
+# parts of the crank's speed at which an output stands, its resistance being about to turn round
 _STANDS = 1e-9
 
 
@@ -101,8 +101,8 @@ class Forces:
         """All masses: of links, and at points."""
         return [body for _, body in self.named]
 
-    def at(self, at: Moved, fastest: float) -> Loaded:
-        """The loads in the positions of ``at``; ``fastest``: the output's greatest speed over the turn, as ``way``."""
+    def at(self, at: Moved) -> Loaded:
+        """The loads in the positions of ``at``."""
         moving = frames(self.levers, at)
         gravity = cmath.rect(self.keys.gravity, math.radians(self.keys.gravity_angle_deg))
         acting: dict[str, Acting] = {}
@@ -110,7 +110,7 @@ class Forces:
             if gravity and body.mass:
                 acting[f"G_{name}"] = weight(body, gravity, moving[body.link])
             acting[f"F_i{name}"] = inertial(body, moving[body.link])
-        opposed = self._opposed(moving, fastest)
+        opposed = self._opposed(moving)
         if self.keys.resistance is not None:
             force = self.keys.resistance * opposed * moving[self.output].way[0]
             acting["F_c"] = Acting(self.output, 0j, force, np.zeros(np.shape(force)))
@@ -124,13 +124,14 @@ class Forces:
         frame = moving[self.output]
         return np.asarray(np.real(np.conj(frame.way[0]) * frame.origin[1]) if self.slides else frame.turning()[0])
 
-    def stands(self, moving: dict[str, Frame], fastest: float) -> Mask:
+    def stands(self, moving: dict[str, Frame]) -> Mask:
         """Whether the output stands, so that no resistance against its motion has a sense."""
-        return np.asarray(np.abs(self.way(moving)) <= _STANDS * fastest)
+        fast = self.levers.speed * (self.levers.crank if self.slides else 1.0)
+        return np.asarray(np.abs(self.way(moving)) <= _STANDS * fast)
 
-    def _opposed(self, moving: dict[str, Frame], fastest: float) -> Real:
+    def _opposed(self, moving: dict[str, Frame]) -> Real:
         """The sense of the resistance: -1, 1, or 0 where it does not act."""
-        sense = np.where(self.stands(moving, fastest), 0.0, np.sign(self.way(moving)))
+        sense = np.where(self.stands(moving), 0.0, np.sign(self.way(moving)))
         idle = {"forward": sense < 0, "backward": sense > 0, "both": np.zeros(np.shape(sense), bool)}
         return np.where(idle[self.keys.resisted], 0.0, -sense)
 
@@ -187,18 +188,17 @@ def weighs(keys: LeverKeys) -> bool:
 
 
 class ForcePage:
-    """The sections and tables of the force analysis; ``plans``: those of forces, for the picture."""
+    """The sections and tables of the force analysis; ``plans``: those of forces, for the picture.
 
-    def __init__(self, page: Sheet, forces: Forces, start: float, positions: int, fine: int) -> None:
+    ``angles``: the crank's positions of the table; ``turn``: fine ones over a turn, None where it does not turn round.
+    """
+
+    def __init__(self, page: Sheet, forces: Forces, at: Moved, angles: Real, turn: Moved | None) -> None:
         self.page, self.forces, self.keys, self.levers = page, forces, forces.keys, forces.levers
-        turn = self.levers.moved(start + 2 * math.pi * np.arange(fine) / fine)
-        self.fastest = float(np.abs(forces.way(frames(self.levers, turn))).max())
-        self.turn = forces.at(turn, self.fastest)
-        angles = start + 2 * math.pi * np.arange(positions) / positions
-        self.rows = forces.at(self.levers.moved(angles), self.fastest)
-        self.one = forces.at(self.levers.moved(start), self.fastest)
+        self.turn = None if turn is None else forces.at(turn)
+        self.rows = forces.at(self.levers.moved(angles))
+        self.one = forces.at(at)
         self.degrees = np.degrees(angles)
-        self.fine_degrees = (np.degrees(start) + 360 * np.arange(fine) / fine) % 360
         self.plans: list[tuple[Text, Plan]] = []
 
     def add(self) -> None:
@@ -425,13 +425,14 @@ class ForcePage:
         heads += [(f"R_{pair}", "N") for pair in pairs]
         columns += [np.abs(rows.found.forces[pair]) for pair in pairs]
         page.table("forces", N_("Balancing moment and reactions in the joints"), heads, np.array(columns)[:, held].T)
-        if not turn.held.any():
+        if turn is None or not turn.held.any():
             return
+        fine = (self.degrees[0] + 360 * np.arange(len(turn.held)) / len(turn.held)) % 360
         greatest = []
         for pair in pairs:
             values = np.abs(turn.found.forces[pair])
             most = int(np.argmax(np.where(turn.held, values, -1.0)))
-            greatest.append((f"R_{pair}", values[most], self.fine_degrees[most]))
+            greatest.append((f"R_{pair}", values[most], fine[most]))
         heads = [(N_("force"), ""), (N_("value"), "N"), ("φ_1", "deg")]
         page.table("greatest_forces", N_("Greatest reactions in the joints over the turn"), heads, greatest)
         moments = turn.found.moment[turn.held] / 1000
@@ -446,7 +447,7 @@ class ForcePage:
             page.note("speed and acceleration of the crank are taken as the same in all of its positions")
         page.note("friction in the joints is left out of the forces")
         if self.keys.resistance is not None or self.keys.resisting_moment is not None:
-            stands = self.forces.stands(self.rows.moving, self.fastest)
+            stands = self.forces.stands(self.rows.moving)
             if stands.any():
                 text = N_(
                     "the output stands at φ_1 = {angles}: the resistance changes its sense there, and is taken as 0"

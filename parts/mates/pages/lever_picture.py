@@ -78,8 +78,8 @@ class Run(Record, eq=False):
 
 
 class LeverPicture(Record, eq=False):
-    """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; ``blocks``: points of links
-    that slide, and the directions of their guides; ``series``: symbol, unit and values over the
+    """``points`` in the first position, their ``paths`` over a turn, or to and fro, mm, ``fixed`` pivots; ``blocks``:
+    points of links that slide, and the directions of their guides; ``series``: symbol, unit and values over the
     ``angle`` (deg) of travel, velocity and acceleration of the output; ``forces``: plans of forces under their titles;
     ``positions``: how many equidistant ones of the crank are shown together, the first of them bold.
     """
@@ -102,8 +102,9 @@ class LeverPicture(Record, eq=False):
             (N_("Scheme"), list(self._scheme())),
             (N_("Plan of velocities"), list(_plan(self.velocities))),
             (N_("Plan of accelerations"), list(_plan(self.accelerations))),
-            (N_("Output over a turn"), list(self._diagrams(words))),
         ]
+        if self.series:
+            panels.append((N_("Output over a turn"), list(self._diagrams(words))))
         if self.run is not None:
             run = self.run
             moments = (("M_c", run.resisting), ("M_d", np.full(len(run.angle), run.driving)))

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.roots import bracketed_roots
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
 from geometry.kinematics.kinetostatics import frames, reduced_inertia, weights_work
-from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
+from geometry.kinematics.levers import Moved, Rods, Slider, Stone, closed, ranges, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.keys.base import either
@@ -39,6 +39,8 @@ _GUIDELINES, _MERTSALOV = "guidelines, 3.4", "guidelines, 2.2.5"
 _KINDS = {Stone: 3, Rods: 1, Slider: 2}
 # positions over which the greatest values of a turn are sought
 _FINE = 3600
+# parts of its way by which a crank that does not turn all round is kept off its limits, and degrees in what is offered
+_LEFT, _ASIDE = 1e-6, 1e-3
 # lengths that are told as they are drawn too
 _DRAWN = ("first_rod_length", "frame_length", "lever_length", "lever_arm_length", "second_rod_length",
           "second_rocker_length")  # fmt: skip
@@ -139,14 +141,46 @@ class _Page:
         self.forces = Forces(keys, self.levers) if asked(keys) else None
         self.lever: tuple[LeverForce, ...] = ()
         self.start, self.way = math.radians(keys.start_angle_deg), cmath.exp(1j * math.radians(keys.guide_angle_deg))
-        try:
-            self.at = self.levers.moved(self.start)
-            # as many places to each position of the table
-            self.fine = keys.positions * math.ceil(_FINE / keys.positions)
-            self.turn = self.levers.moved(self.start + 2 * math.pi * np.arange(self.fine) / self.fine)
-        except ParameterError as error:
-            raise error.renamed(NAMES.get(error.name, error.name)) from error
+        # as many places to each position of the table
+        self.fine = keys.positions * math.ceil(_FINE / keys.positions)
+        turn = 2 * math.pi * np.arange(self.fine) / self.fine
+        self.between, self.hindered = self._driven()
+        if self.between is None:
+            self.angles = self.start + 2 * math.pi * np.arange(keys.positions) / keys.positions
+            self.turn = self.levers.moved(self.start + turn)
+        else:
+            # to and fro, the limits left out, where nothing has a velocity
+            low, high = self.between
+            self.angles = np.array([self.start])
+            self.turn = self.levers.moved((low + high) / 2 - (1 - _LEFT) * (high - low) / 2 * np.cos(turn))
+        self.at = self.levers.moved(self.start)
         self.drawn = keys.drawn_crank or (_DRAWN_CRANK if keys.sheet is None else self._round_crank())
+
+    def _driven(self) -> tuple[tuple[float, float] | None, ParameterError | None]:
+        """Between which angles the crank moves, rad, and what hinders it; None: it turns all round."""
+        keys = self.keys
+        try:
+            closed(self.levers)
+        except ParameterError as error:
+            hindered = error.renamed(NAMES.get(error.name, error.name))
+        else:
+            return None, None
+        found = ranges(self.levers)
+        if not found or keys.unevenness is not None or keys.sheet is not None:
+            raise hindered
+        turn = 2 * math.pi
+        # each as it lies about the given angle
+        shifts = [turn * round((self.start - (low + high) / 2) / turn) for low, high in found]
+        about = [(low + shift, high + shift) for (low, high), shift in zip(found, shifts, strict=True)]
+        here = next(((low, high) for low, high in about if low < self.start < high), None)
+        if here is None:
+            low, high = min(about, key=lambda ends: min(abs(self.start - end) for end in ends))
+            ends = math.degrees(low), math.degrees(high)
+            aside = min(_ASIDE, (ends[1] - ends[0]) / 4)
+            works = limit(min(max(keys.start_angle_deg, ends[0] + aside), ends[1] - aside), keys.start_angle_deg)
+            code = "links_do_not_meet"
+            raise ParameterError("start_angle_deg", keys.start_angle_deg, code, works, low=ends[0], high=ends[1])
+        return here, hindered
 
     def _round_crank(self) -> float:
         """The crank on a sheet, mm, so that the scheme has a round scale and its share of the paper."""
@@ -241,6 +275,9 @@ class _Page:
         for link, name in (("2", "first_rod_angle_deg"), ("3", "lever_angle_deg"), ("4", "second_rod_angle_deg")):
             if link in at.links:
                 self.page.add(name, math.degrees(at.angle(link)))
+        if self.between is not None:
+            for end, name in zip(self.between, ("least_crank_angle_deg", "greatest_crank_angle_deg"), strict=True):
+                self.page.add(name, math.degrees(end))
         self._transmission()
 
     def _transmission(self) -> None:
@@ -266,7 +303,8 @@ class _Page:
             worst = f"abs({squares} - ({{l_0}} {sign} {{l_1}})**2) / {sides}"
         angles = [math.degrees(math.acos(min(abs(x) / unit, 1.0))) for x in (here, least)]
         page.add("transmission_angle_deg", angles[0], f"arccos({formula})" if formula else "")
-        page.add("joint_transmission_angle_deg", angles[1], f"arccos({worst})")
+        if self.between is None:
+            page.add("joint_transmission_angle_deg", angles[1], f"arccos({worst})")
 
     def _velocities(self) -> None:
         page, at = self.page, self.at
@@ -373,28 +411,32 @@ class _Page:
     def _over_a_turn(self) -> None:
         """The table of equidistant positions, and what is greatest over the turn."""
         page, name = self.page, self._output
-        page.section("Over a turn")
         travel, of = self._along(self.turn.place(name)), message("point {name}", name=name)
-        if self._slides:
-            page.add("output_stroke", float(np.ptp(travel)), of=of)
-        page.add("greatest_output_velocity", float(np.abs(self.turn.velocity(name)).max()) / 1000, of=of)
-        page.add("greatest_output_acceleration", float(np.abs(self.turn.acceleration(name)).max()) / 1000, of=of)
-        self._ways()
-        angles = self.start + 2 * math.pi * np.arange(self.keys.positions) / self.keys.positions
-        at = self.levers.moved(angles)
-        heads, columns = [("φ_1", "deg")], [np.degrees(angles)]
+        title: Text = N_("The position, with signs")
+        if self.between is None:
+            title = N_("Positions of the crank over one turn")
+            page.section("Over a turn")
+            if self._slides:
+                page.add("output_stroke", float(np.ptp(travel)), of=of)
+            page.add("greatest_output_velocity", float(np.abs(self.turn.velocity(name)).max()) / 1000, of=of)
+            page.add("greatest_output_acceleration", float(np.abs(self.turn.acceleration(name)).max()) / 1000, of=of)
+            self._ways()
+        at = self.levers.moved(self.angles)
+        heads, columns = [("φ_1", "deg")], [np.degrees(self.angles)]
         for link in at.links:
             heads += [(f"φ_{link}", "deg"), (f"ω_{link}", "rad/s"), (f"ε_{link}", "rad/s2")]
             columns += [np.degrees(at.angle(link)), *at.turning(link)]
         place, speeds, changes = at.place(name), at.velocity(name), at.acceleration(name)
-        if self._slides:
+        if self._slides and self.between is None:
             heads.append((f"S_{name}", "mm"))
-            columns += [self._along(place) - travel.min(), self._along(speeds / 1000), self._along(changes / 1000)]
+            columns.append(self._along(place) - travel.min())
         else:
             heads += [(f"x_{name}", "mm"), (f"y_{name}", "mm")]
-            columns += [place.real, place.imag, np.abs(speeds) / 1000, np.abs(changes) / 1000]
+            columns += [place.real, place.imag]
         heads += [(f"V_{name}", "m/s"), (f"a_{name}", "m/s2")]
-        page.table("positions", N_("Positions of the crank over one turn"), heads, zip(*columns, strict=True))
+        size = self._along if self._slides else np.abs
+        columns += [size(speeds / 1000), size(changes / 1000)]
+        page.table("positions", title, heads, zip(*columns, strict=True))
 
     def _along(self, vectors: Complex) -> Real:
         """What of vectors lies along the guide."""
@@ -434,7 +476,7 @@ class _Page:
         """The force analysis, where loads are given: its plans."""
         if self.forces is None:
             return []
-        part = ForcePage(self.page, self.forces, self.start, self.keys.positions, self.fine)
+        part = ForcePage(self.page, self.forces, self.at, self.angles, self.turn if self.between is None else None)
         part.add()
         self.lever = tuple(part.lever())
         return part.plans
@@ -579,7 +621,7 @@ class _Page:
         points = {name: complex(place) for name, place in shown[0].items()}
         angles = self.keys.start_angle_deg + 360 * np.arange(self.fine) / self.fine
         self.page.picture = LeverPicture(
-            points, shown[1], fixed, blocks, *plans, angles, self._series(), run, tuple(forces), self.keys.positions
+            points, shown[1], fixed, blocks, *plans, angles, self._series(), run, tuple(forces), len(self.angles)
         )
 
     def _centres(self, at: Moved) -> dict[str, Complex]:
@@ -628,6 +670,8 @@ class _Page:
 
     def _series(self) -> tuple[tuple[str, str, Real], ...]:
         """Travel, velocity and acceleration of the output over the turn, along its guide or about its pivot."""
+        if self.between is not None:
+            return ()
         place, *rates = (values[:-1] for values in self._travelled())
         travel = place - place.min()
         if self._slides:
@@ -688,11 +732,17 @@ class _Page:
                     "change it"
                 )
         if isinstance(levers.first, Stone):
-            most = abs(levers.first.pivot) + levers.crank
+            assert self.turn.reach is not None
+            most = abs(levers.first.pivot) + levers.crank if self.between is None else float(self.turn.reach[0].max())
             if levers.lever < most:
                 text = N_("the stone leaves the lever: it goes to {most:g} mm from O3, the lever ends at {length:g} mm")
                 page.note(text, most=most, length=levers.lever)
-        if not isinstance(levers.first, Slider):
+        if self.between is not None:
+            low, high = (math.degrees(end) for end in self.between)
+            page.note(_PARTLY, low=low, high=high)
+            if self.hindered is not None and self.hindered.nearest is not None:
+                page.note(_ROUND, key=self.hindered.name, value=self.hindered.nearest.value)
+        elif not isinstance(levers.first, Slider):
             low, high = swing(levers)
             if high - low < 2 * math.pi:
                 page.note("the lever swings by {angle:.4g}°", angle=math.degrees(high - low))
@@ -702,6 +752,11 @@ class _Page:
             page.notes += _SLIPS
 
 
+_PARTLY = N_(
+    "the crank does not turn all round: as its links are joined it moves between φ_1 = {low:.6g}° and {high:.6g}°; "
+    "what needs a whole turn (its table, diagrams, greatest values, dead points, a flywheel, the sheet) is left out"
+)
+_ROUND = N_("it would turn all round with {key} = {value:g}")
 _SLIPS = (
     N_("the guidelines' conclusion on the structure names the knotter; this is the screen"),
     N_("the guidelines write l_CD = l_CO3·3.5, and reckon with the 2.8 of row 7, which is right"),

@@ -418,9 +418,18 @@ def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Pat
         (("assignment=1", "gravity=0"), "gravity", "of_no_link", None),
         ((), "crank_length", "missing_key", None),
         (("crank_length=30",), "frame_length", "missing_key", None),
-        (("crank_length=30", "first=slider", "coupler_length=30"), "coupler_length", "rod_does_not_reach", 30.0001),
+        (("crank_length=30", "first=slider", "coupler_length=30", "resistance=5", "unevenness=0.1"), "coupler_length",
+         "rod_does_not_reach", 30.0001),
+        (("crank_length=30", "first=slider", "coupler_length=20", "start_angle_deg=410"),
+         "start_angle_deg", "links_do_not_meet", 401.8093),
+        (("crank_length=30", "first=slider", "coupler_length=20", "start_angle_deg=-50"), "start_angle_deg",
+         "links_do_not_meet", -41.8093),
+        (("crank_length=30", "first=slider", "coupler_length=20", "guide_height=50.1"), "coupler_length",
+         "rod_does_not_reach", 80.1001),
         (("crank_length=30", "first=slider", "coupler_length=90", "second=slider"), "second", "lever_needed", None),
-        (("crank_length=30", "frame_length=30", "lever_length=90"), "frame_length", "stone_through_pivot", None),
+        (("crank_length=30", "frame_length=30", "lever_length=90"), "start_angle_deg", "links_do_not_meet", 0.001),
+        (("crank_length=30", "frame_length=30", "lever_length=90", "sheet=a.dxf"), "frame_length",
+         "stone_through_pivot", None),
         (("assignment=1", "rod_length=50"), "rod_length", "rod_does_not_reach", 200.8801),
         (("assignment=4", "coupler_length=900"), "coupler_length", "rods_do_not_close", 517.9994),
         (("assignment=4", "measured.pe=30"), "pe", "no_such_name", None),
@@ -483,3 +492,62 @@ def test_a_flywheel_needs_what_it_follows_from(keys: tuple[str, ...], key: str, 
     with pytest.raises(SceneError) as found:
         calculate("lever", keys, "text", "en")
     assert (found.value.key.rpartition(".")[2], found.value.code) == (key, code)
+
+
+ROCKER = ("first=rods", "crank_length=300", "coupler_length=360", "lever_length=360", "frame_length=600")
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_double_rocker_has_its_position_and_the_angles_between_which_it_moves(side: int) -> None:
+    loads = ("masses.2=3", "masses.3=2", "resisting_moment=5", "gravity_angle_deg=-70")
+    data = calculated(*ROCKER, "start_angle_deg=60", "speed=10", "acceleration=30", f"first_side={side}", *loads)
+    limit = math.degrees(math.acos((300**2 + 600**2 - 720**2) / (2 * 300 * 600)))
+    assert value(data, "φ_1min") == pytest.approx(-limit, rel=1e-12)
+    assert value(data, "φ_1max") == pytest.approx(limit, rel=1e-12)
+    # differences of the places of B, found by circles
+    step = 1e-3
+
+    def place(time: float) -> complex:
+        joint = cmath.rect(300.0, math.radians(60) + 10 * time + 15 * time**2)
+        across = math.sqrt(360**2 - (abs(joint - 600) / 2) ** 2)
+        return (joint + 600) / 2 + side * across * 1j * (joint - 600) / abs(joint - 600)
+
+    before, here, after = (place(k * step) for k in (-1, 0, 1))
+    assert value(data, "V_B") == pytest.approx(abs(after - before) / (2 * step) / 1000, rel=1e-4)
+    assert value(data, "a_B") == pytest.approx(abs(after - 2 * here + before) / step**2 / 1000, rel=1e-4)
+    (row,) = data["positions"]
+    assert complex(row["x_B"], row["y_B"]) == pytest.approx(here, rel=1e-12)
+    assert value(data, "M_b") == pytest.approx(value(data, "M_bZ"), rel=1e-10)
+    assert len(data["forces"]) == 1
+    # of a whole turn nothing is told
+    assert {"greatest_output_velocity", "joint_transmission_angle_deg", "rear_dead_point_deg"}.isdisjoint(
+        data["values"]
+    )
+    assert not {"cycle", "greatest_forces"} & data.keys()
+    assert any("-100.953° and 100.953°" in note for note in data["notes"])
+    assert any("coupler_length = 540.00" in note for note in data["notes"])
+
+
+def test_a_second_group_may_hinder_the_crank(tmp_path: Path) -> None:
+    """C swings on an arc of 270 mm; a rod of 250 reaches the guide where the lever leans far enough."""
+    file = tmp_path / "screen.svg"
+    words = ("crank_length=300", "frame_length=600", "frame_angle_deg=180", "lever_length=1080", "second=slider",
+             "arm_length=270", "arm_angle_deg=-90", "rod_length=250", f"picture={file.as_posix()}")  # fmt: skip
+    data = calculated(*words, "start_angle_deg=97")
+    lean = math.acos(250 / 270)
+    low, high = (value(data, symbol) for symbol in ("φ_1min", "φ_1max"))
+    # O3A leans by that angle: the law of sines in O1O3A
+    known = sorted(
+        math.degrees(lean + k) for k in (math.asin(2 * math.sin(lean)), math.pi - math.asin(2 * math.sin(lean)))
+    )
+    assert (low, high) == pytest.approx(tuple(known), rel=1e-9)
+    drawn = file.read_text(encoding="utf-8")
+    assert "Plan of accelerations" in drawn
+    assert "Output over a turn" not in drawn
+
+
+def test_what_needs_a_whole_turn_is_refused_where_there_is_none() -> None:
+    for more in (("unevenness=0.05", "resisting_moment=5"), ("sheet=a.dxf",)):
+        with pytest.raises(SceneError) as found:
+            calculate("lever", (*ROCKER, "start_angle_deg=60", *more), "text", "en")
+        assert (found.value.key.rpartition(".")[2], found.value.code) == ("coupler_length", "rods_do_not_close")

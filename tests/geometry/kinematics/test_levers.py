@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
-from geometry.kinematics.levers import Levers, Rods, Slider, Stone, swing
+from geometry.kinematics.levers import Levers, Rods, Slider, Stone, closed, ranges, swing
 from tests.sampling import examples
 
 TURN = np.linspace(0, 2 * math.pi, 361)
@@ -109,7 +109,7 @@ def test_a_slider_crank_moves_by_the_textbook() -> None:
 
 def refusal(levers: Levers) -> ParameterError:
     with pytest.raises(ParameterError) as found:
-        levers.moved(0.0)
+        closed(levers)
     return found.value
 
 
@@ -175,3 +175,90 @@ def test_a_stone_through_its_pivot_is_refused() -> None:
 def test_mobility_is_one() -> None:
     for levers in MECHANISMS.values():
         assert 3 * levers.links - 2 * levers.lower_pairs == 1
+
+
+HALF = st.sampled_from([1, -1])
+LENGTH, WAY = st.floats(20, 200), st.floats(0, 2 * math.pi)
+
+
+@st.composite
+def mechanisms(draw: st.DrawFn) -> Levers:
+    """Any lengths: most cannot turn all round."""
+    crank, lever = draw(LENGTH), draw(LENGTH)
+    pivot = cmath.rect(draw(LENGTH), draw(WAY))
+    kind = draw(st.sampled_from(["stone", "rods", "slider"]))
+    if kind == "slider":
+        return Levers(
+            crank, 1.0, Slider(draw(LENGTH), 1j * draw(st.floats(-90, 90)) * cmath.exp(0.7j), 0.7, draw(HALF))
+        )
+    first = Stone(pivot) if kind == "stone" else Rods(pivot, draw(LENGTH), lever, draw(HALF))
+    arm, second, way = cmath.rect(draw(LENGTH), draw(WAY)), draw(st.sampled_from(["none", "slider", "rods"])), draw(WAY)
+    if second == "none":
+        return Levers(crank, 1.0, first, lever)
+    if second == "slider":
+        on = pivot + 1j * draw(st.floats(-90, 90)) * cmath.exp(1j * way)
+        return Levers(crank, 1.0, first, lever, arm, Slider(draw(LENGTH), on, way, draw(HALF)))
+    other = pivot + cmath.rect(draw(LENGTH), way)
+    return Levers(crank, 1.0, first, lever, arm, Rods(other, draw(LENGTH), draw(LENGTH), draw(HALF)))
+
+
+def joins(levers: Levers, angle: float) -> bool:
+    """Whether the links close, by circles and lines that are put together with a compass."""
+    first, second = levers.first, levers.second
+    joint = cmath.rect(levers.crank, angle)
+    if isinstance(first, Slider):
+        return abs(((joint - first.on) / cmath.exp(1j * first.angle)).imag) < first.rod
+    lever = joint - first.pivot
+    if isinstance(first, Rods):
+        far = max(abs(lever), 1e-12)
+        cosine = (first.rocker**2 + far**2 - first.rod**2) / (2 * first.rocker * far)
+        if abs(cosine) > 1:
+            return False
+        # B on its side of the way from O3 to A
+        lever *= cmath.exp(1j * first.side * math.acos(cosine))
+    if second is None:
+        return True
+    end = first.pivot + levers.arm * lever / abs(lever)
+    if isinstance(second, Slider):
+        return abs(((end - second.on) / cmath.exp(1j * second.angle)).imag) < second.rod
+    return abs(second.rod - second.rocker) < abs(end - second.pivot) < second.rod + second.rocker
+
+
+@given(mechanisms())
+@examples(120)
+def test_the_crank_moves_between_the_angles_at_which_links_close(levers: Levers) -> None:
+    found = ranges(levers)
+    for angle in np.linspace(0.0, 2 * math.pi, 721):
+        shifted = angle + np.array([0.0, 2 * math.pi])
+        if all(np.abs(shifted - end).min() > 1e-6 for ends in found for end in ends):
+            assert joins(levers, angle) == any(((low < shifted) & (shifted < high)).any() for low, high in found)
+    for low, high in found:
+        # beside its limits, and between them, it moves; at a limit that it does not pass it is refused
+        levers.moved(np.linspace(low, high, 9)[1:-1])
+    try:
+        closed(levers)
+    except ParameterError:
+        return
+    # links that pass their limit at a hair's breadth have it for one
+    assert sum(high - low for low, high in found) == pytest.approx(2 * math.pi)
+
+
+def test_a_double_rockers_limits_are_those_of_the_triangle() -> None:
+    """Khurmi 8.5: crank 300, rod and rocker 360, frame 600; in line they span 720."""
+    levers = Levers(300.0, 10.0, Rods(600 + 0j, 360.0, 360.0), 360.0)
+    most = math.acos((300**2 + 600**2 - 720**2) / (2 * 300 * 600))
+    assert ranges(levers) == [pytest.approx((2 * math.pi - most, 2 * math.pi + most), rel=1e-14)]
+    with pytest.raises(ParameterError):
+        levers.moved(most + 1e-6)
+    levers.moved(most - 1e-6)
+
+
+def test_a_parallelogram_folds_in_line_twice() -> None:
+    levers = Levers(50.0, 1.0, Rods(200 + 0j, 200.0, 50.0, -1), 50.0)
+    assert ranges(levers) == [pytest.approx((0, math.pi)), pytest.approx((math.pi, 2 * math.pi))]
+    # both cranks turn alike where it is a parallelogram, in opposite ways where it is crossed
+    assert levers.moved(1.0).turning("3")[0] == pytest.approx(1.0, rel=1e-12)
+    crossed = replace(levers, first=Rods(200 + 0j, 200.0, 50.0, 1))
+    assert crossed.moved(1.0).turning("3")[0] < 0
+    # too short to join at all
+    assert ranges(replace(levers, first=Rods(200 + 0j, 60.0, 50.0))) == []
