@@ -75,6 +75,7 @@ _ARGPARSE = (
     "ambiguous option: %(option)s could match %(matches)s",
     "argument %(argument_name)s: %(message)s",
     "invalid choice: %(value)r (choose from %(choices)s)",
+    "invalid choice: %(value)r, maybe you meant %(closest)r? (choose from %(choices)s)",
     "expected one argument",
     "expected at most one argument",
     "expected at least one argument",

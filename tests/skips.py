@@ -11,9 +11,15 @@ from pathlib import Path
 
 import pytest
 
+from parts.solids.kernel import has_kernel
+
 
 def _lacks(*modules: str) -> Callable[[], bool]:
     return lambda: any(find_spec(module) is None for module in modules)
+
+
+def _no_kernel() -> bool:
+    return not has_kernel()
 
 
 def _here() -> bool:
@@ -22,12 +28,12 @@ def _here() -> bool:
 
 # the beginning of what pytest tells
 REASONS: dict[str, Callable[[], bool]] = {
-    "the CAD kernel is an extra": _lacks("OCP"),
-    "needs the CAD kernel": _lacks("OCP"),
+    "the CAD kernel is an extra": _no_kernel,
+    "needs the CAD kernel": _no_kernel,
     "Dask, the extra cluster, is not installed": _lacks("distributed"),
-    "could not import 'OCP'": _lacks("OCP"),
+    "could not import 'OCP'": _no_kernel,
     "could not import 'cadquery'": _lacks("cadquery"),
-    "this kernel has no such setting": lambda: find_spec("OCP") is not None,
+    "this kernel has no such setting": has_kernel,
     "the frames are those of ezdxf": _here,
     "(pipes|signals|limits|kills).* of POSIX": lambda: not sys.platform.startswith("linux"),
     "names there are Unicode": lambda: sys.platform in ("win32", "darwin"),

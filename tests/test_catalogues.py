@@ -164,7 +164,7 @@ def faults(english: str, told: str, language: str) -> list[str]:
         found.append("two spaces")
     if re.search(" [-–] ", told) and " - " not in english:
         found.append("a dash is —")
-    bare = re.sub(r"\{[^{}]*\}|%\(\w+\)s|`[^`]*`|\"[^\"]*\"", " ", told)
+    bare = re.sub(r"\{[^{}]*\}|%\(\w+\)[rs]|`[^`]*`|\"[^\"]*\"", " ", told)
     latin = re.findall(r"(?<![\w.])[a-z]{4,}(?![\w.])", bare)
     found += [f"not translated: {word}" for word in latin if word not in TYPED | typed()]
     return found + [f"not {word}" for word in rivals(language).findall(told.lower())]
@@ -374,7 +374,8 @@ def test_argparse_says_nothing_of_its_own() -> None:
     import inspect
 
     developers = ("conflict", "__call__", "required", "mutually", "callable", "merge", "must start", "dest=", "parser",
-                  "deprecated", 'argument "-"', "%(prog)s", "can't open", "unexpected option")  # fmt: skip
+                  "deprecated", 'argument "-"', "%(prog)s", "can't open", "unexpected option", "(default",
+                  "subcommands", "%(heading)s")  # fmt: skip
     calls = [c for c in ast.walk(ast.parse(inspect.getsource(argparse))) if isinstance(c, ast.Call)]
     said = [a.value for c in calls if isinstance(c.func, ast.Name) and c.func.id in ("_", "ngettext") for a in c.args
             if isinstance(a, ast.Constant)]  # fmt: skip
@@ -423,9 +424,11 @@ def test_tomllib_says_nothing_of_its_own() -> None:
     from tomllib import _parser
 
     calls = [c for c in ast.walk(ast.parse(inspect.getsource(_parser))) if isinstance(c, ast.Call)]
-    told = [
-        c.args[-1] for c in calls if isinstance(c.func, ast.Name) and c.func.id in ("suffixed_err", "TOMLDecodeError")
+    raised = [
+        c.args for c in calls if isinstance(c.func, ast.Name) and c.func.id in ("suffixed_err", "TOMLDecodeError")
     ]
+    # Python 3.14 gives the text and its place behind the words
+    told = [next((a for a in args if isinstance(a, ast.Constant | ast.JoinedStr)), args[-1]) for args in raised]
     pieces = [t.values if isinstance(t, ast.JoinedStr) else [t] for t in told]
     said = {"".join(v.value if isinstance(v, ast.Constant) else "{what}" for v in row) for row in pieces}
     assert len(said) > 15

@@ -389,16 +389,15 @@ def _parser(told: Words) -> Parser:
 
 
 def _build(options: argparse.Namespace) -> int:
-    from importlib.util import find_spec
-
     from exporters.production.plan import plan_build
+    from parts.solids.kernel import has_kernel
 
     def planned(address: str) -> Plan:
         scene = _scene(address, options)
         with _waiting(options, scene):
             return plan_build(scene, address, options.part, options.format)
 
-    if options.verify == "kernel" and find_spec("OCP") is None:
+    if options.verify == "kernel" and not has_kernel():
         from parts.base.refusal import SceneError
 
         raise SceneError(options.scenes[0], "--verify", "kernel", "needs_kernel")

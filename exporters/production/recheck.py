@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from functools import lru_cache
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +22,7 @@ from parts.keys.sheet import on_sheet
 from parts.scene.formats import OF_SCENES, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
+from parts.solids.kernel import has_kernel
 
 if TYPE_CHECKING:
     from exporters.production.plan import Film, ListJob, SheetJob
@@ -153,7 +153,7 @@ def _held(
         expected = ExpectedAssembly(assembly_name(scene.name), {part.id: part for part in used}, offset, stand, bed)
         verdict = verify_assembly(file, kind, expected, declared, tolerance)
     verdict = signed(file, kind, str(entry.get("author", "")), str(entry.get("organisation", "")), verdict)
-    if kind.form is not Form.FACES or verdict.failures or find_spec("OCP") is None:
+    if kind.form is not Form.FACES or verdict.failures or not has_kernel():
         return verdict
     from exporters.verification.kernel import judged_by_kernel
 

@@ -4,12 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import cache
+from importlib.util import find_spec
 from io import BytesIO
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape
+
+
+@cache
+def has_kernel() -> bool:
+    """Whether it is installed and loads: where the system has no OpenGL it does not."""
+    if find_spec("OCP") is None:
+        return False
+    try:
+        import OCP  # noqa: F401
+    except ImportError:
+        return False
+    return True
 
 
 def faces_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Face]:

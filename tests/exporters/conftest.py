@@ -18,5 +18,5 @@ def train_3mf(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def train_step(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The same as STEP, with one part beside it."""
-    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra", exc_type=ImportError)
     return made(tmp_path_factory.mktemp("a"), STEP, {"format": "step", "parts": ["sun"]}) / "train.step"

@@ -17,6 +17,7 @@ from typing import Any
 import pytest
 
 from exporters.command.cli import main
+from parts.solids.kernel import has_kernel
 from tests.exporters.making import part_keys, run, write_scene
 from tests.exporters.outside import Gear
 
@@ -187,18 +188,31 @@ def test_a_bar_on_a_terminal_goes_on_by_each_step_to_its_end(
         assert bar.options == {"transient": True}
 
 
+@pytest.mark.parametrize("broken", [False, True], ids=["not installed", "does not load"])
 def test_the_kernel_is_asked_for_only_where_it_is(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    broken: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    real = importlib.util.find_spec
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None if name == "OCP" else real(name))
-    scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 12))}, [{"format": "svg"}])
-    assert run("build", scene, "--out", tmp_path, "--verify", "kernel") == 2
-    told = capsys.readouterr().err
-    assert told.startswith(f'higherpair: {scene}: --verify = "kernel"')
-    assert told.count("\n") == 1
-    assert not (tmp_path / "s").exists()
-    assert run("build", scene, "--out", tmp_path, "--verify", "reader", "-q") == 0
+    """Nor where a library of the system is missing, with which no wheel comes."""
+    for name in [name for name in sys.modules if name.partition(".")[0] == "OCP"]:
+        monkeypatch.delitem(sys.modules, name)
+    if broken:
+        (tmp_path / "lib" / "OCP").mkdir(parents=True)
+        (tmp_path / "lib" / "OCP" / "__init__.py").write_text("raise ImportError('libGL.so.1: no such file')\n")
+        monkeypatch.syspath_prepend(tmp_path / "lib")
+    else:
+        monkeypatch.setitem(sys.modules, "OCP", None)
+    has_kernel.cache_clear()
+    try:
+        scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 12))}, [{"format": "step"}])
+        assert run("build", scene, "--out", tmp_path, "--verify", "kernel") == 2
+        told = capsys.readouterr().err
+        assert told.startswith(f'higherpair: {scene}: --verify = "kernel"')
+        assert told.count("\n") == 1
+        assert not (tmp_path / "s").exists()
+        assert run("build", scene, "--out", tmp_path, "--verify", "reader", "-q") == 0
+        assert run("verify", tmp_path / "s" / "g.step") == 0
+    finally:
+        has_kernel.cache_clear()
 
 
 def test_an_environment_keeps_the_threads_that_it_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -220,7 +220,7 @@ def test_a_good_step_is_good_however_it_is_laid_out(part: str, good: Path, tmp_p
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("part", PARTS)
 def test_verify_holds_a_step_against_the_kernel_too(part: str, good: Path) -> None:
-    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra", exc_type=ImportError)
     found = recheck(good / f"{part}.step")
     assert found.told["judges"] == ["reader", "kernel"]
     assert found.told["ok"]
@@ -231,7 +231,7 @@ def test_verify_holds_a_step_against_the_kernel_too(part: str, good: Path) -> No
 
 
 def test_a_build_says_who_has_judged(tmp_path: Path) -> None:
-    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra", exc_type=ImportError)
     scene = write_scene(tmp_path / "s.toml", {"plate": PARTS["plate"]}, [{"format": "step", "assembly": True}])
     for choice, judges in ([], ["reader"]), (["--verify", "kernel"], ["reader", "kernel"]), (["--no-verify"], []):
         assert run("build", scene, "--out", tmp_path, *choice) == 0
@@ -413,7 +413,7 @@ def test_a_volume_that_is_little_wrong_is_refused(keys: str, size: str, share: f
         changed = re.sub(rf"(VOLUME_MEASURE\()({NUMBER})", lambda m, w=wrong: f"{m[1]}{float(m[2]) * w:.9f}", text)
         file.write_text(changed, encoding="ascii", newline="\n")
         assert verdict(file)
-    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra", exc_type=ImportError)
     name, _, number = size.partition(" = ")
     larger = f"{name} = {float(number) * (1 + share)}"
     scene.write_text(f"[parts.g]\n{keys.replace(size, larger)}", encoding="utf-8")
@@ -424,7 +424,7 @@ def test_a_volume_that_is_little_wrong_is_refused(keys: str, size: str, share: f
 
 def test_balls_and_rings_are_measured_and_what_is_not_understood_is_refused(tmp_path: Path) -> None:
     """Spheres and tori cut and written by the kernel: volume and area by its own integrals; edges at poles are told."""
-    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra", exc_type=ImportError)
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Common, BRepAlgoAPI_Cut
     from OCP.BRepGProp import BRepGProp
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox, BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakeSphere

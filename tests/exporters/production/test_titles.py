@@ -65,7 +65,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_step_has_them_beside_the_ids(folder: Path) -> None:
-    pytest.importorskip("OCP", reason="the CAD kernel is an extra")
+    pytest.importorskip("OCP", reason="the CAD kernel is an extra", exc_type=ImportError)
     from OCP.IFSelect import IFSelect_RetDone
     from OCP.StepBasic import StepBasic_Product
     from OCP.STEPControl import STEPControl_Reader

@@ -364,7 +364,7 @@ def written_step(file: Path, body: BarrelBody) -> float:
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["end", "cone"])
 def test_a_step_file_holds_the_exact_cam(name: str, tmp_path: Path) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     body = body_of(FORMS[name])
     file = tmp_path / f"{name}.step"
     error = written_step(file, body) + 1e-8
@@ -416,7 +416,7 @@ def possible_cam(rng: random.Random) -> BarrelBody:
 @pytest.mark.heavy
 @pytest.mark.parametrize("seed", range(30))
 def test_random_cams_become_good_files(seed: int, tmp_path: Path) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     from exporters.verification.faces import verify_faced_solid
 
     body = possible_cam(random.Random(seed))

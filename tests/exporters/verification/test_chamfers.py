@@ -77,7 +77,7 @@ def roof_distance(points: np.ndarray, region: Region, width: float) -> np.ndarra
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", PARTS)
 def test_the_declared_error_of_a_step_file_holds_on_chamfers(name: str, tmp_path: Path) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
     from OCP.GeomAbs import GeomAbs_SurfaceType
 
@@ -149,7 +149,7 @@ def test_a_tip_rounding_that_a_plain_chamfer_would_take_is_told(chamfer: Any, to
 @pytest.mark.parametrize("where", [0, 1, 2])
 def test_a_bent_chamfer_of_a_step_file_is_caught(where: int, tmp_path: Path) -> None:
     """Inner poles of one face are moved: its edges, its caps and the walls stay where they are."""
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     work = job("step", "gear")
     made = list(shape_of(work))
     index = next(i for i, outline in enumerate(made) if outline.faces)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import math
 from pathlib import Path
@@ -20,12 +19,13 @@ from geometry.solids.body import Body
 from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
+from parts.solids.kernel import has_kernel
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart
 from tests.oracles.rack_sweep import RackTool
 from tests.oracles.space_rack import space_penetration
 
-needs_kernel = pytest.mark.skipif(importlib.util.find_spec("OCP") is None, reason="needs the CAD kernel")
+needs_kernel = pytest.mark.skipif(not has_kernel(), reason="needs the CAD kernel")
 GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "helix_angle_deg": 30.0, "face_width": 10.0,
         "bore_diameter": 10.0}  # fmt: skip
 PARTS: dict[str, dict[str, Any]] = {

@@ -6,7 +6,6 @@ import re
 import shutil
 import zipfile
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 
 import ezdxf
@@ -16,12 +15,13 @@ from ezdxf.entities import DXFGraphic
 
 from exporters.formats.read_drawing import read_drawing
 from parts.base.readback import ReadError
+from parts.solids.kernel import has_kernel
 from tests.exporters.making import part_keys, run, table, write_scene
 from tests.exporters.outside import Gear
 from tests.sampling import some_of
 
 Spoil = Callable[[Path], None]
-STEP = find_spec("OCP") is not None
+STEP = has_kernel()
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +11,9 @@ import pytest
 from exporters.verification.kernel import judged_by_kernel
 from exporters.verification.verdict import Verdict
 from parts.scene.load import make_parts, scene_from_toml
+from parts.solids.kernel import has_kernel
 
-pytestmark = pytest.mark.skipif(find_spec("OCP") is None, reason="the CAD kernel is an extra")
+pytestmark = pytest.mark.skipif(not has_kernel(), reason="the CAD kernel is an extra")
 
 PIN = b'[parts.pin]\nkind = "pin"\ndiameter = 10.0\nlength = 20.0\n'
 

@@ -148,7 +148,7 @@ def test_an_untouched_file_verifies_and_tells_its_lift(tmp_path: Path) -> None:
 
 
 def test_step_files_are_rolled_too(tmp_path: Path) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     report = built(tmp_path, CAMS["roller"] | {"face_chamfer": 0.5}, '[[exports]]\nformat = "step"\n')[1]
     step = next(f for f in report["files"] if f["format"] == "step")
     assert 1e-9 < step["measured"]["lift_error"] < 2e-6

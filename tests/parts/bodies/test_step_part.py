@@ -7,7 +7,6 @@ import math
 import re
 import sys
 from collections.abc import Callable
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +19,9 @@ from parts.base.refusal import SceneError
 from parts.scene.interference import solid_overlaps
 from parts.scene.load import ExportSpec, load_scene, make_parts
 from parts.scene.placing import place
-from parts.solids.kernel import KernelError, edges_of, kernel_errors, silent_kernel, solids_of
+from parts.solids.kernel import KernelError, edges_of, has_kernel, kernel_errors, silent_kernel, solids_of
 
-pytestmark = pytest.mark.skipif(find_spec("OCP") is None, reason="the CAD kernel is an extra")
+pytestmark = pytest.mark.skipif(not has_kernel(), reason="the CAD kernel is an extra")
 # a box of 40 x 40 x 30 with a round shaft of 5 x 20 on it, in a place of its own
 BOX, RADIUS, LENGTH, ASIDE = (40.0, 40.0, 30.0), 2.5, 20.0, (7.0, -3.0, 11.0)
 SHAFT = math.pi * RADIUS**2 * LENGTH

@@ -174,7 +174,7 @@ def test_a_spoiled_part_is_found(changed: dict[str, Any], pair: set[str]) -> Non
     assert frozenset(pair) in brute
     # by relative coordinates the same is found, and what polygons find in some poses
     shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
-    home = {frozenset((x.first, x.second)) for x in solid_overlaps(placing, parts, lambda name: shapes[name].solid)}
+    home = {frozenset((x.first, x.second)) for x in solid_overlaps(placing, parts)}
     found = workspace_found(placing, shapes, by_contact(placing, parts), home, 400)
     all_over = home | {frozenset((x.first, x.second)) for x in found.struck}
     assert brute <= all_over

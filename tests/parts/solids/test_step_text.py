@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import re
 from collections import Counter
 from functools import cache
@@ -23,11 +22,12 @@ from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.decimals import point_lines
 from parts.solids.faces import solid_curves, solid_faces
+from parts.solids.kernel import has_kernel
 from parts.solids.step_text import StepForm, StepGroup, StepPart, real, step_text, string
 from tests.parts.cams.barrel_cam.test_barrel_cam import CONE, END, GROOVE
 from tests.sampling import examples
 
-needs_kernel = pytest.mark.skipif(importlib.util.find_spec("OCP") is None, reason="needs the CAD kernel")
+needs_kernel = pytest.mark.skipif(not has_kernel(), reason="needs the CAD kernel")
 GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "face_width": 20.0, "bore_diameter": 12.0}
 SMALL = {**GEAR, "number_of_teeth": 9, "face_width": 6.0, "bore_diameter": 4.0}
 HELICAL = {**GEAR, "helix_angle_deg": 30.0}

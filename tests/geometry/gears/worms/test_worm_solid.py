@@ -116,7 +116,7 @@ def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name:
     "name", ["left with a base above the root", "plane ends and a keyway", "run out into a thicker shaft", "blunt"]
 )
 def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.BRepGProp import BRepGProp
     from OCP.GProp import GProp_GProps

@@ -82,7 +82,7 @@ def test_other_followers_are_rolled_over_a_laser_file(name: str, tmp_path: Path)
 
 @pytest.mark.heavy
 def test_a_step_file_is_rolled(tmp_path: Path) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     step = built(tmp_path, FOUR | {"hub": {"diameter": 30.0, "above": 4.0}}, "step")[1]["files"][0]["measured"]
     assert 1e-9 < step["swing_error_deg"] < 1e-5
 

@@ -223,7 +223,7 @@ def test_an_undercut_table_is_told_and_its_cure_works(capsys: pytest.CaptureFixt
 def test_splines_and_solids_of_a_table(tmp_path: Path, form: str) -> None:
     """Splines end at the rows, areas and volumes are added up row by row: 6e-5 of the volume was off otherwise."""
     if form == "step":
-        pytest.importorskip("OCP")
+        pytest.importorskip("OCP", exc_type=ImportError)
     built(
         tmp_path,
         "roller",

@@ -115,7 +115,7 @@ def test_both_walls_of_every_file_are_rolled(name: str, tmp_path: Path) -> None:
 
 
 def test_a_step_file_is_rolled_and_the_solid_has_its_floor(tmp_path: Path) -> None:
-    pytest.importorskip("OCP")
+    pytest.importorskip("OCP", exc_type=ImportError)
     keys = GROOVE | {"face_width": 12.0, "face_chamfer": 0.5, "hub": {"diameter": 30.0, "above": 4.0}}
     step = built(tmp_path, keys, "step")[1]["files"][0]["measured"]
     for wall in ("inner", "outer"):
