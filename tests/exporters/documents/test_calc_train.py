@@ -284,6 +284,36 @@ def test_speeds_of_a_textbook(case: dict[str, Any]) -> None:
         assert found == pytest.approx(printed, abs=0.5001 * 10 ** -case["digits"])
 
 
+@pytest.mark.parametrize("teeth", [(20, 40, 100), (40, 13, 66), (17, 70, 157), (30, 30, 90)])
+@pytest.mark.parametrize("each", [0.99, 0.95])
+def test_efficiencies_of_a_planetary_set_by_kudryavtsev(teeth: tuple[int, int, int], each: float) -> None:
+    """V. N. Kudryavtsev, Planetary gears: of each way through a set with p = z_3 / z_1, psi of the stopped carrier."""
+    p, whole = teeth[2] / teeth[0], each**2
+    known = {
+        ("1", "H", "3"): (1 + p * whole) / (1 + p),
+        ("H", "1", "3"): (1 + p) / (1 + p / whole),
+        ("3", "H", "1"): (p + whole) / (1 + p),
+        ("H", "3", "1"): (1 + p) / (p + 1 / whole),
+        ("1", "3", "H"): whole,
+    }
+    for (driver, driven, held), efficiency in known.items():
+        words = (f"teeth={[*teeth]}", "meshes=1-2, 2-3 internal", "carriers.H=2", f"mesh_efficiency={each}")
+        data = calculated(*words, f"held={held}", f"driver={driver}", f"driven={driven}")
+        assert data["values"]["efficiency"] == pytest.approx(efficiency, rel=1e-12)
+
+
+@pytest.mark.parametrize("teeth", [(99, 50, 51, 100), (100, 101, 100, 99), (60, 20, 30, 91), (101, 100, 99, 100)])
+@pytest.mark.parametrize("kind", ["", " internal"])
+def test_efficiencies_of_sets_whose_wheels_turn_alike(teeth: tuple[int, int, int, int], kind: str) -> None:
+    """Radzimovsky's formulas for i_0 = u_13 with the carrier stopped, above 0; the carrier drives, wheel 3 is held."""
+    names, whole = ("1", "2", "2'", "3"), 0.98**2
+    ratio = teeth[1] * teeth[3] / (teeth[0] * teeth[2])
+    data = calculated(*(f"teeth.{name}={z}" for name, z in zip(names, teeth, strict=True)), "carriers.H=2", "held=3",
+                      f"meshes=1-2{kind}, 2'-3{kind}", "driver=H", "driven=1", "mesh_efficiency=0.98")  # fmt: skip
+    known = (ratio - 1) / (ratio / whole - 1) if ratio > 1 else (1 - ratio) / (1 - ratio * whole)
+    assert data["values"]["efficiency"] == pytest.approx(known, rel=1e-12)
+
+
 def test_wheels_on_a_carriers_shaft_are_listed_with_its_turns() -> None:
     teeth = {"1": 20, "2": 20, "3": 60, "4": 30, "5": 30, "2'": 20}
     words = ("meshes=1-2, 2'-3 internal, 4-5", "carriers.H=2", "shafts=4-H", "speeds.1=10", "speeds.3=5")
