@@ -145,8 +145,8 @@ class SpokesTable(Struct, forbid_unknown_fields=True):
     """Spokes between a hub ring and a rim: windows with rounded corners."""
 
     count: Annotated[int, Meta(ge=2, le=200, description="number of spokes", examples=[5])]
-    inner_diameter: Annotated[float, part_mm("outside of the hub ring", above=0, example=20.0)]
-    outer_diameter: Annotated[float, part_mm("inside of the rim", above=0, example=36.0)]
+    inner_diameter: Annotated[float, part_mm("outer diameter of the hub ring", above=0, example=20.0)]
+    outer_diameter: Annotated[float, part_mm("inner diameter of the rim", above=0, example=36.0)]
     width: Annotated[float, part_mm("width of a spoke", above=0, example=4.0)]
     corner_radius: CornerRadius = 0.0
     start_deg: Direction = 0.0

@@ -65,6 +65,13 @@ _TEETH = Meta(description="numbers of teeth z1, z2, z3, or with two rims z1, z2,
 _SPACING = Meta(description="satellites equally spaced, or as equally as alike ones can be")
 _DRIVER = Meta(description="what is driven: wheel 1, wheel 3, the carrier, or none of them here")
 _HELD = Meta(description="what stands still: wheel 1, wheel 3, the carrier, or none: a differential")
+_SECOND_SHAFT = mm(
+    "of the shaft through the upper plate of the carrier: wheel 3's where it is a sun, else one fixed in that plate; "
+    "default: the suns' shaft goes through both",
+    above=0,
+    most=10_000,
+    example=10.0,
+)
 _FRAME = Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
 
 
@@ -93,6 +100,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     axial_gap: Annotated[float, mm("between planes of wheels and plates", least=0, most=1000)] = 0.5
     pin_diameter: Annotated[float, mm("of the satellites' pins", above=0, most=10_000)] = 6.0
     shaft_diameter: Annotated[float, mm("of the suns' shaft", above=0, most=10_000)] = 8.0
+    second_shaft_diameter: Annotated[float, _SECOND_SHAFT] | None = None
     clearance: Annotated[float, mm("of bores on the pins and shafts that turn in them", least=0, most=100)] = 0.0
     frame: Annotated[bool, _FRAME] = False
     material: Material | None = None
@@ -258,11 +266,20 @@ def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
         screws, outside = _rim(made, wheel)
         table |= {"outer_diameter": 2 * outside, "holes": holes_on(4, _SCREW, screws, 45.0)}
     elif not wheel.is_ring:
-        turns = wheel in made.wheels[1:3]
-        table["bore_diameter"] = keys.pin_diameter + keys.clearance if turns else keys.shaft_diameter
+        key = _bore_key(made, wheel)
+        # satellites turn on their pins
+        table["bore_diameter"] = getattr(keys, key) + (keys.clearance if key == "pin_diameter" else 0.0)
     if keys.frame:
         table["tooth_mark"] = {}
     return table
+
+
+def _bore_key(made: _Set, wheel: _Wheel) -> str:
+    """The key of what stands in a wheel's bore."""
+    if wheel in made.wheels[1:3]:
+        return "pin_diameter"
+    has_own = wheel is made.wheels[3] and made.keys.second_shaft_diameter is not None
+    return "second_shaft_diameter" if has_own else "shaft_diameter"
 
 
 def _rim(made: _Set, ring: _Wheel) -> tuple[float, float]:
@@ -356,12 +373,20 @@ def _add_carrier(made: _Set, making: Making) -> None:
     keys, first, found = made.keys, made.chain[0], making.found
     thick, gap = keys.plate_thickness, keys.axial_gap
     bottom, inside = made.low - gap - thick, made.high - made.low + 2 * gap
-    making.part(
-        "carrier", kind="carrier_plate", number_of_pins=len(made.places), pin_circle_diameter=2 * made.distance,
-        pin_diameter=keys.pin_diameter, bore_diameter=keys.shaft_diameter + keys.clearance, face_width=thick,
-    )  # fmt: skip
+    plate: Table = {
+        "kind": "carrier_plate", "number_of_pins": len(made.places), "pin_circle_diameter": 2 * made.distance,
+        "pin_diameter": keys.pin_diameter, "bore_diameter": keys.shaft_diameter + keys.clearance, "face_width": thick,
+    }  # fmt: skip
     if not made.equal:
-        found.parts["carrier"]["directions_deg"] = [360 * float(p) for p in made.places]
+        plate["directions_deg"] = [360 * float(p) for p in made.places]
+    making.part("carrier", **plate)
+    if (second := keys.second_shaft_diameter) is not None:
+        # a ring has no shaft: the carrier has it, and does not turn on it
+        turns = not made.wheels[3].is_ring
+        plate["bore_diameter"] = second + (keys.clearance if turns else 0.0)
+        making.part("upper_carrier", "carrier", **plate)
+        if not (turns and keys.clearance):
+            making.told("upper_carrier", bore_diameter="second_shaft_diameter")
     # between the shaft and a pin, where there is room
     start = max(0.5 * made.distance, (keys.shaft_diameter + keys.clearance) / 2 + _MARK)
     end = min(0.75 * made.distance, made.distance - keys.pin_diameter / 2 - _MARK)
@@ -370,7 +395,8 @@ def _add_carrier(made: _Set, making: Making) -> None:
         found.parts["carrier"]["engraved"] = [mark]
     making.pin("pin", keys.pin_diameter, inside + 2 * thick)
     making.put("coaxial", first.id, "carrier", height=bottom - first.height, rotation_deg=keys.direction_deg)
-    making.put("fixed", "carrier", "upper_carrier", "carrier", offset=[0.0, 0.0, thick + inside])
+    upper = "carrier" if keys.second_shaft_diameter is None else "upper_carrier"
+    making.put("fixed", "carrier", "upper_carrier", upper, offset=[0.0, 0.0, thick + inside])
     _stand(made, found, "pin", "pin")
     _join(made, found, {"kind": "pin_seat", "first": "carrier", "second": "pin", "number": 1}, ("pin",))
     rim = made.chain[1]
@@ -378,10 +404,10 @@ def _add_carrier(made: _Set, making: Making) -> None:
     _join(made, found, turning, ("pin", rim.id))
     for wheel in made.wheels:
         if not wheel.is_ring:
-            turns = wheel in made.wheels[1:3]
+            key = _bore_key(made, wheel)
             # with a clearance the bore of what turns is no key's own
-            if not (turns and made.keys.clearance):
-                making.told(wheel.id, bore_diameter="pin_diameter" if turns else "shaft_diameter")
+            if not (key == "pin_diameter" and made.keys.clearance):
+                making.told(wheel.id, bore_diameter=key)
 
 
 def _add_frame(made: _Set, making: Making) -> None:
@@ -392,6 +418,8 @@ def _add_frame(made: _Set, making: Making) -> None:
         raise ParameterError("frame", keys.frame, "frame_needs_ring_and_sun", Nearest(False))
     if keys.held != ("first" if ring is made.wheels[0] else "second"):
         raise ParameterError("frame", keys.frame, "frame_holds_the_ring", Nearest(False))
+    if (second := keys.second_shaft_diameter) is not None:
+        raise ParameterError("second_shaft_diameter", second, "frame_has_one_shaft", Nearest(None))
     thick, gap = keys.plate_thickness, keys.axial_gap
     screws, outside = _rim(made, ring)
     floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick

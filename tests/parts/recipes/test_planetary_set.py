@@ -295,6 +295,11 @@ def test_ferguson_has_three_different_satellites() -> None:
         ({**DAVID, "teeth": [50, 30, 20, 60], "satellites": 2, "frame": True}, "frame", "frame_needs_ring_and_sun"),
         ({"teeth": [24, 24, 72], "shaft_diameter": 60.0}, "shaft_diameter", "reaches_root_circle"),
         ({"teeth": [24, 24, 72], "pin_diameter": 60.0}, "pin_diameter", "reaches_root_circle"),
+        ({"teeth": [24, 24, 72], "second_shaft_diameter": 94.0}, "second_shaft_diameter", "hole_reaches_edge"),
+        ({**DAVID, "teeth": [50, 30, 20, 60], "satellites": 2, "second_shaft_diameter": 200.0},
+         "second_shaft_diameter", "reaches_root_circle"),
+        ({"teeth": [24, 24, 72], "second_shaft_diameter": 9.0, "frame": True}, "second_shaft_diameter",
+         "frame_has_one_shaft"),
     ],
 )  # fmt: skip
 def test_a_refusal_names_the_key_of_the_recipe(keys: dict[str, Any], key: str, code: str) -> None:
@@ -405,6 +410,23 @@ def test_new_prints_a_set_that_builds(tmp_path: Path, capsys: Any) -> None:
     assert resolved(load_scene(str(tmp_path / "a.toml"))) | {"name": ""} == resolved(
         load_scene(str(tmp_path / "b.toml"))
     ) | {"name": ""}
+
+
+def test_the_second_shaft_goes_through_the_upper_plate_alone() -> None:
+    """A ring has none, so the carrier is fixed on it; wheel 3 of two suns is, and the plate turns about it."""
+    keys: dict[str, Any] = {"shaft_diameter": 8.0, "second_shaft_diameter": 12.0, "clearance": 0.2}
+    for more, bores in (
+        ({"teeth": [24, 24, 72]}, {"sun": 8.0, "carrier": 8.2, "upper_carrier": 12.0}),
+        ({**DAVID, "teeth": [50, 30, 20, 60], "satellites": 2},
+         {"sun": 8.0, "second_sun": 12.0, "carrier": 8.2, "upper_carrier": 12.2}),
+    ):  # fmt: skip
+        made = scene(**keys, **more)
+        parts, matings = make_parts(made, "t")
+        told_bores = {part: resolved(made)["parts"][part]["bore_diameter"] for part in bores}
+        assert told_bores == pytest.approx(bores)
+        assert made.instances["upper_carrier"].part == "upper_carrier"
+        placing = place(made.instances, made.drives, parts, matings, "t")
+        assert "solids" not in scene_checks(placing, parts, made.drives, "en", contact=True)
 
 
 @pytest.mark.parametrize("pin", [18.0, 36.0])
