@@ -277,8 +277,25 @@ class _Page:
                 self.page.add(name, math.degrees(at.angle(link)))
         if self.between is not None:
             for end, name in zip(self.between, ("least_crank_angle_deg", "greatest_crank_angle_deg"), strict=True):
-                self.page.add(name, math.degrees(end))
+                self.page.add(name, math.degrees(end), self._limit(end))
         self._transmission()
+
+    def _limit(self, end: float) -> str:
+        """The formula of a limit of the crank at which rod and rocker are in line; none of others."""
+        group, crank, turn = self.levers.first, self.levers.crank, 2 * math.pi
+        if not isinstance(group, Rods):
+            return ""
+        frame, home = abs(group.pivot), math.radians(self.keys.frame_angle_deg)
+        for sign, apart in (("+", group.rod + group.rocker), ("-", group.rod - group.rocker)):
+            cosine = (frame**2 + crank**2 - apart**2) / (2 * frame * crank)
+            for side, way in (("+", 1), ("-", -1)):
+                value = home + way * math.acos(max(-1.0, min(1.0, cosine)))
+                turns = round((end - value) / turn)
+                if abs(cosine) <= 1 and abs(value + turns * turn - end) < _LEFT:
+                    cosines = f"({{l_0}}**2 + {{l_1}}**2 - ({{l_2}} {sign} {{l_3}})**2) / (2 * {{l_0}} * {{l_1}})"
+                    more = f" {'+' if turns > 0 else '-'} {abs(2 * turns)} * pi" if turns else ""
+                    return f"{{gamma_0}} {side} arccos({cosines}){more}"
+        return ""
 
     def _transmission(self) -> None:
         """The angle between the rod AB and the lever, or the normal of its guide, here and where it is the least."""

@@ -551,3 +551,26 @@ def test_what_needs_a_whole_turn_is_refused_where_there_is_none() -> None:
         with pytest.raises(SceneError) as found:
             calculate("lever", (*ROCKER, "start_angle_deg=60", *more), "text", "en")
         assert (found.value.key.rpartition(".")[2], found.value.code) == ("coupler_length", "rods_do_not_close")
+
+
+@pytest.mark.parametrize(
+    ("keys", "limits"),
+    [
+        (ROCKER, 2),
+        ((*ROCKER, "frame_angle_deg=50", "start_angle_deg=400"), 2),
+        ((*ROCKER, "frame_angle_deg=-200", "start_angle_deg=-900"), 2),
+        # in line one over the other, too near to O3
+        (("first=rods", "crank_length=90", "coupler_length=200", "lever_length=60", "frame_length=100",
+          "start_angle_deg=180"), 2),
+        (("first=rods", "crank_length=90", "coupler_length=60", "lever_length=90", "frame_length=60",
+          "start_angle_deg=200"), 2),
+        (("first=slider", "crank_length=90", "coupler_length=60"), 0),
+    ],
+)  # fmt: skip
+def test_limits_of_the_crank_have_their_formula(keys: tuple[str, ...], limits: int) -> None:
+    steps = [s for s in sheet_for(("lever", *keys)).steps() if s.symbol in ("φ_1min", "φ_1max")]
+    assert len(steps) == 2
+    told = [step for step in steps if step.formula]
+    assert len(told) == limits
+    for step in told:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-12, abs=1e-9)
