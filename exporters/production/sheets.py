@@ -34,7 +34,7 @@ from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
-from parts.drawing.names import caption_name, drawn_names
+from parts.drawing.names import drawn_names
 from parts.drawing.parts_list import form_of, mass_text
 from parts.drawing.table import Row
 from parts.drawing.title_block import FORM_1, TITLE_BLOCK, check_held, draw_title_block, draw_turned, title_block_of
@@ -404,7 +404,8 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, parts: list[
         Row(word("arc"), sample="ARC_OF_ACTION"),
         Row(word("pitch"), sample="WORKING_PITCH"),
     ]
-    first, second = map(caption_name, parts)
+    # what kinds of gears they are the kind of the picture says
+    first, second = (part.title or part.id for part in parts)
     if getattr(mating, "ring_first", False):
         # the picture counts the pinion first
         first, second = second, first
