@@ -390,17 +390,18 @@ def _parser(told: Words) -> Parser:
 
 def _build(options: argparse.Namespace) -> int:
     from exporters.production.plan import plan_build
-    from parts.solids.kernel import has_kernel
 
     def planned(address: str) -> Plan:
         scene = _scene(address, options)
         with _waiting(options, scene):
             return plan_build(scene, address, options.part, options.format)
 
-    if options.verify == "kernel" and not has_kernel():
+    if options.verify == "kernel":
         from parts.base.refusal import SceneError
+        from parts.solids.kernel import has_kernel
 
-        raise SceneError(options.scenes[0], "--verify", "kernel", "needs_kernel")
+        if not has_kernel():
+            raise SceneError(options.scenes[0], "--verify", "kernel", "needs_kernel")
     plans, refused = _each(options.scenes, planned, lambda: _language(options))
     if refused:
         return WRONG_INPUT
