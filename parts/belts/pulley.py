@@ -14,7 +14,7 @@ from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.lookalikes import in_latin
 from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
-from parts.keys.holes import holes_of
+from parts.keys.holes import holes_of, spoked
 from parts.keys.pins import check_holes
 from parts.keys.wheel import WheelKeys, WheelKind
 
@@ -93,6 +93,7 @@ class TimingPulleyKind(WheelKind[TimingPulleySpec, "Pulley"]):
         )  # fmt: skip
         pulley = replace(pulley, toothed_width=keys.face_width, flanges=flanges)
         check_flanges(pulley)
+        keys = spoked(keys, pulley.root_radius)
         holes = holes_of(keys)
         check_holes(keys, holes, pulley.root_radius)
         radius = self.core(keys, pulley)

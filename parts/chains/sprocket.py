@@ -13,7 +13,7 @@ from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report, diameters
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import MOST_LENGTH, either, mm, start
-from parts.keys.holes import holes_of
+from parts.keys.holes import holes_of, spoked
 from parts.keys.pins import MARGIN, check_holes, most_of
 from parts.keys.wheel import WheelKeys, WheelKind
 
@@ -96,7 +96,9 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
             raise ParameterError("face_chamfer", None, "of_plain_teeth", Nearest(None))
         if chain.strands > 1:
             _check_rows(sprocket)
-        holes, core = holes_of(keys), sprocket.core_radius
+        core = sprocket.core_radius
+        keys = spoked(keys, core)
+        holes = holes_of(keys)
         check_holes(keys, holes, core)
         check_wheel(self.shape(keys, sprocket), 2 * core, holes)
         return replace(sprocket, holes=holes)

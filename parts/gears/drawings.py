@@ -57,7 +57,7 @@ from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
 from parts.keys.engraving import digits_height
 from parts.keys.helix import ToothedKeys, helix_of
-from parts.keys.holes import bore_of, holes_of
+from parts.keys.holes import bore_of, holes_of, spoked
 from parts.keys.wheel import shape_of, wheel_shape
 
 # mm, what is no length; how long marks of the teeth's direction are, and how far apart: parts of what has room
@@ -81,7 +81,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
             return disk_drawing(subject, shape, thing.holes, "zero_x", circles)
         case WormWheelSpec() as keys:
             views = wheel_views(_worm_wheel(keys, thing), subject)
-            more = directions(holes_of(keys), subject, "zero_tooth", keys.number_of_teeth)
+            holes = holes_of(spoked(keys, thing.drive.root_radius))
+            more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
         case RingGearSpec() as keys:
             views = _ring(keys, thing, subject)
             more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_space", keys.number_of_teeth)
@@ -148,7 +149,8 @@ def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:
     shape, a = wheel_shape(teeth.width, keys.web, keys.hub, 0.0), drive.centre_distance
     edge = float(teeth.tip_radius(teeth.width / 2))
     crown = Crown(a, drive.throat_radius, a - drive.root_radius)
-    return Wheel(shape, holes_of(keys), (edge, edge), None, drive.root_radius, drive.reference_radius, crown)
+    holes = holes_of(spoked(keys, drive.root_radius))
+    return Wheel(shape, holes, (edge, edge), None, drive.root_radius, drive.reference_radius, crown)
 
 
 def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, ...]:

@@ -141,12 +141,24 @@ class HolesTable(Struct, forbid_unknown_fields=True):
     start_deg: Direction = 0.0
 
 
-class SpokesTable(Struct, forbid_unknown_fields=True):
+_HUB_RING = part_mm(
+    "outer diameter of the hub ring; default: 1.05 of the hub's, or 1.6 of the bore's, and wide enough for the spokes",
+    above=0,
+    example=20.0,
+)
+_RIM = part_mm(
+    "inner diameter of the rim; default: the web's rim by 1.05, or 2.5 modules (else a tenth) within the roots",
+    above=0,
+    example=36.0,
+)
+
+
+class SpokesTable(Struct, kw_only=True, forbid_unknown_fields=True):
     """Spokes between a hub ring and a rim: windows with rounded corners."""
 
     count: Annotated[int, Meta(ge=2, le=200, description="number of spokes", examples=[5])]
-    inner_diameter: Annotated[float, part_mm("outer diameter of the hub ring", above=0, example=20.0)]
-    outer_diameter: Annotated[float, part_mm("inner diameter of the rim", above=0, example=36.0)]
+    inner_diameter: Annotated[float, _HUB_RING] | None = None
+    outer_diameter: Annotated[float, _RIM] | None = None
     width: Annotated[float, part_mm("width of a spoke", above=0, example=4.0)]
     corner_radius: CornerRadius = 0.0
     start_deg: Direction = 0.0
@@ -170,7 +182,8 @@ def hub_holes(bore: BoreTable | None, holes: HolesKey, spokes: SpokesTable | Non
     from geometry.solids.windows import RoundHoles, Spokes
 
     windows = None
-    if spokes is not None:
+    # without both diameters they are none yet: ``spoked`` finds those
+    if spokes is not None and spokes.inner_diameter is not None and spokes.outer_diameter is not None:
         windows = Spokes(
             spokes.count,
             spokes.inner_diameter,
@@ -200,6 +213,10 @@ class Bored(Protocol):
     @property
     def bore(self) -> BoreTable | None:
         """Its shape."""
+
+
+# of the bore's diameter, a hub ring; modules, a rim: as textbooks have them; windows keep off hub and web's rim
+_HUB_SHARE, _RIM_MODULES, _OFF = 1.6, 2.5, 1.05
 
 
 def check_bore(diameter: float) -> None:
@@ -239,6 +256,31 @@ def holes_of(keys: Bored, *own: RoundHoles) -> HubHoles:
     """
     found = hub_holes(bore_of(keys), getattr(keys, "holes", None), getattr(keys, "spokes", None))
     return HubHoles(found.bore, (*own, *found.round_holes), found.spokes)
+
+
+def spoked(keys: K, core: float) -> K:
+    """The keys with both diameters of their spokes; ``core``: radius of what lies within the roots, mm."""
+    spokes: SpokesTable | None = getattr(keys, "spokes", None)
+    if spokes is None or (spokes.inner_diameter is not None and spokes.outer_diameter is not None):
+        return keys
+    inner, outer = spokes.inner_diameter, spokes.outer_diameter
+    hub, web, module = (getattr(keys, key, None) for key in ("hub", "web", "module"))
+    if inner is None:
+        short: float = getattr(keys, "bore_diameter", None) or 0.0
+        reach = hub_holes(getattr(keys, "bore", None), None, None).bore_reach or short / 2
+        around = _HUB_SHARE * 2 * reach if hub is None else 0.0
+        radius, sine = spokes.corner_radius, math.sin(math.pi / spokes.count)
+        # between the roundings of neighbouring spokes a tenth is left
+        inner = max(
+            around,
+            0.0 if hub is None else _OFF * hub.diameter,
+            2.2 * ((spokes.width / 2 + radius) / sine - radius),
+        )
+    if outer is None:
+        outer = (
+            2 * (core - (_RIM_MODULES * module if module else core / 10)) if web is None else web.rim_diameter / _OFF
+        )
+    return replace(keys, spokes=replace(spokes, inner_diameter=inner, outer_diameter=outer))
 
 
 class BoredKeys(MadeKeys, kw_only=True):

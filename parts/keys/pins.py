@@ -17,7 +17,7 @@ from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import part_mm
-from parts.keys.holes import BoredKeys, holes_of, with_remedy
+from parts.keys.holes import BoredKeys, holes_of, spoked, with_remedy
 from parts.keys.wheel import HubbedKeys, shape_of
 
 LobeCount = Annotated[int, Meta(ge=2, le=1000, description="number of lobes z of the disc", examples=[11])]
@@ -70,6 +70,7 @@ def wheel_holes(keys: HubbedKeys, root_radius: float) -> HubHoles:
     ParameterError
         Names the key and what would work.
     """
+    keys = spoked(keys, root_radius)
     holes = holes_of(keys)
     check_holes(keys, holes, root_radius)
     check_wheel(shape_of(keys), 2 * root_radius, holes)

@@ -28,6 +28,7 @@ from parts.keys.holes import (
     check_holes,
     check_shape,
     holes_of,
+    spoked,
     wide_bore,
 )
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
@@ -245,7 +246,9 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
             if error.name not in ("addendum_coefficient", "dedendum_coefficient"):
                 raise
             raise LateError(error.code, partial(_cured, keys, error)) from error
-        inside, holes = gear.inner_radius, holes_of(keys)
+        inside = gear.inner_radius
+        keys = spoked(keys, inside)
+        holes = holes_of(keys)
         room = inside - least_wall(inside)
         check_shape(keys, holes_of, room)
         if holes.bore_reach > room:

@@ -10,6 +10,7 @@ import numpy as np
 from msgspec import Meta
 from msgspec.structs import replace
 
+from geometry.base import record
 from geometry.base.errors import ConvergenceError, GeometryError, LateError, Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
@@ -18,7 +19,7 @@ from parts.base.schema import replaced
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import either, in_modules, mm, start
 from parts.keys.cutter import PressureAngle, RackName
-from parts.keys.holes import hub_holes, with_remedy
+from parts.keys.holes import hub_holes, spoked, with_remedy
 from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
@@ -113,7 +114,7 @@ class NoncircularGearKind(WheelKind[NoncircularGearSpec, "NoncircularGear"]):
         root = gear.root_radius
 
         def fits(changed: NoncircularGearSpec) -> bool:
-            return hub_holes(changed.bore, changed.holes, changed.spokes).fits(root)
+            return hub_holes(changed.bore, changed.holes, spoked(changed, root).spokes).fits(root)
 
         try:
             gear.holes.check(root)
@@ -179,7 +180,7 @@ def gear_of(keys: NoncircularGearSpec) -> NoncircularGear:
     _check_keys(keys)
     mate, teeth = keys.role == "mate", keys.pair_teeth
     pairing = paired(centrode_of(keys, teeth), teeth, keys.module, keys.centre_distance)
-    return NoncircularGear(
+    gear = NoncircularGear(
         line=pairing.lines[1 if mate else 0],
         number_of_teeth=keys.number_of_teeth,
         rack=basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg)),
@@ -190,6 +191,9 @@ def gear_of(keys: NoncircularGearSpec) -> NoncircularGear:
         hub=hub_holes(keys.bore, keys.holes, keys.spokes),
         pairing=pairing,
     )
+    if keys.spokes is None or gear.hub.spokes is not None:
+        return gear
+    return record.replace(gear, hub=hub_holes(keys.bore, keys.holes, spoked(keys, gear.root_radius).spokes))
 
 
 def _builds(keys: NoncircularGearSpec) -> bool:

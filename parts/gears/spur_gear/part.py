@@ -40,7 +40,7 @@ from parts.keys.helix import (
     section_finding,
     told_in_keys,
 )
-from parts.keys.holes import BoreTable, HolesTable, SpokesTable, bore_of, hub_holes, with_remedy
+from parts.keys.holes import BoreTable, HolesTable, SpokesTable, bore_of, hub_holes, spoked, with_remedy
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, shape_of
 
 if TYPE_CHECKING:
@@ -239,11 +239,11 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
     ParameterError
         Its rack cannot exist, or two keys exclude each other.
     """
-    checked_teeth(keys, keys.number_of_teeth)
+    helix = checked_teeth(keys, keys.number_of_teeth)
     bore_of(keys)
     _check_unused(keys)
     cutter = None if keys.cutter is None else cutter_of(keys.cutter, keys.module, math.radians(keys.pressure_angle_deg))
-    return SpurGear(
+    gear = SpurGear(
         module=keys.module,
         number_of_teeth=keys.number_of_teeth,
         rack=_rack_of(keys),
@@ -257,6 +257,10 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
         hub=hub_holes(keys.bore, keys.holes, keys.spokes),
         cutter=cutter,
     )
+    if keys.spokes is None or gear.hub.spokes is not None:
+        return gear
+    root = transverse_gear(gear, helix.angle).root_radius
+    return replace(gear, hub=hub_holes(keys.bore, keys.holes, spoked(keys, root).spokes))
 
 
 def _check_unused(keys: SpurGearSpec) -> None:

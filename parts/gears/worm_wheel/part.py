@@ -14,7 +14,7 @@ from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import mm
-from parts.keys.holes import HoledKeys, SpokesTable, check_holes, check_shape, holes_of, wide_bore
+from parts.keys.holes import HoledKeys, SpokesTable, check_holes, check_shape, holes_of, spoked, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
     NEAR,
@@ -225,6 +225,7 @@ def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThin
     from geometry.plane.profile import Label, circle
     from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 
+    keys = spoked(keys, drive.root_radius)
     holes = holes_of(keys)
     shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
     room = drive.root_radius - least_wall(drive.root_radius)
@@ -264,7 +265,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         from geometry.plane.profile import Region
 
         outline = thing.teeth.outline(0.0)
-        return OffsetRegion(Region(outline, holes_of(keys).profiles(0.0)), 0.0, ())
+        return OffsetRegion(Region(outline, holes_of(spoked(keys, thing.drive.root_radius)).profiles(0.0)), 0.0, ())
 
     def solid(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> FacedBody:
         """The teeth about their core."""

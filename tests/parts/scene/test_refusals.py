@@ -645,7 +645,7 @@ def test_a_misspelt_key_is_told_as_it_was_typed(part: Keys, key: str, told: str)
         # before: pin_diameter, which is there and known, was told to be no key and to mean pin_circle_diameter
         ({"kind": '"output_plate"', "number_of_pins": 6, "pin_diameter": 6.0, "module": None, "number_of_teeth": None},
          "parts.gear.pin_circle_diameter"),
-        ({"spokes": "{ count = 5, inner_diameter = 10.0, width = 2.0 }"}, "parts.gear.spokes.outer_diameter"),
+        ({"holes": "{ count = 5, diameter = 3.0 }"}, "parts.gear.holes.pitch_circle_diameter"),
     ],
 )  # fmt: skip
 def test_a_missing_key_is_not_taken_for_one_like_it(part: Keys, key: str) -> None:
