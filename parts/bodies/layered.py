@@ -262,9 +262,14 @@ def _outline(outline: OutlineTable, place: str) -> Contour:
     from geometry.solids.plate import meets_itself
 
     points, count = outline.points, outline.count
-    made = _repeated(points, count, place)
-    if not meets_itself(made.edges):
-        return made
+    key, value = ("points", len(points)) if count == 1 else ("count", count)
+    wrong = ParameterError(f"{place}.{key}", value, "boundary_crosses_itself")
+    try:
+        made = _repeated(points, count, place)
+        if not meets_itself(made.edges):
+            return made
+    except ParameterError as refusal:
+        wrong = refusal
     ways = itertools.pairwise(complex(p.x, p.y) for p in points)
     if count > 1 and sum(cmath.phase(b * a.conjugate()) for a, b in ways) < 0:
         # an arc leads to the next corner: told backwards, to the one before
@@ -272,8 +277,7 @@ def _outline(outline: OutlineTable, place: str) -> Contour:
         with suppress(ParameterError):
             if not meets_itself((made := _repeated(turned, count, place)).edges):
                 return made
-    key, value = ("points", len(points)) if count == 1 else ("count", count)
-    raise ParameterError(f"{place}.{key}", value, "boundary_crosses_itself")
+    raise wrong
 
 
 def _repeated(points: list[OutlinePoint], count: int, place: str) -> Contour:

@@ -51,6 +51,11 @@ class HoleAtTable(Struct, forbid_unknown_fields=True):
         return self.columns * self.rows
 
     @property
+    def least_pitch(self) -> float:
+        """From hole to hole where the thinnest wall is left, mm; a third of it is for what rounding takes."""
+        return rounded(self.diameter + 3 * LEAST_LENGTH, up=True, digits=6)
+
+    @property
     def steps(self) -> tuple[float, float]:
         """From hole to hole along x and along y, mm."""
         return self.pitch or self.row_pitch or 0.0, self.row_pitch or self.pitch or 0.0
@@ -165,7 +170,7 @@ def _check_grid(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) 
     if table.count > _MOST_HOLES:
         most = limit(_MOST_HOLES // table.columns, table.rows)
         raise ParameterError(f"{place}.rows", table.rows, "grid_of_too_many_holes", most, most=_MOST_HOLES)
-    least = rounded(table.diameter + 2 * LEAST_LENGTH, up=True, digits=6)
+    least = table.least_pitch
     pitches = {"pitch": (table.pitch, "columns"), "row_pitch": (table.row_pitch, "rows")}
     for (key, (pitch, many)), step in zip(pitches.items(), table.steps, strict=True):
         count = getattr(table, many)
@@ -208,7 +213,7 @@ def _grid_outside(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]
         if most := bisect_left(range(1, given), True, key=lambda n: not works(key, n)):
             return ParameterError(f"{place}.{key}", given, "grid_lies_outside", Nearest(most, "at_most"))
     # one that serves both ways may cure what neither number does
-    least = rounded(table.diameter + 2 * LEAST_LENGTH, up=True, digits=6)
+    least = table.least_pitch
     if table.pitch is not None and works("pitch", least):
         found = limit(last_that_holds(partial(works, "pitch"), table.pitch, least, steps=30), table.pitch, digits=6)
         return ParameterError(f"{place}.pitch", table.pitch, "grid_lies_outside", found)

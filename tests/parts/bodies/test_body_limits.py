@@ -382,6 +382,11 @@ def test_a_tooth_told_clockwise_is_turned_where_it_makes_no_outline_as_it_stands
     tooth = ((8.0, 0.0, -2.0), (9.0, 1.0, 0.0), (9.0, 3.0, 4.0), (6.4, 4.8))
     back = ((6.4, 4.8, 4.0), (9.0, 3.0, 0.0), (9.0, 1.0, -2.0), (8.0, 0.0))
     assert volume(turned_on(5, *back)) == pytest.approx(volume(turned_on(5, *tooth)), rel=1e-12)
+    # an arc that reaches the next corner clockwise alone was refused as too short
+    lead = cmath.rect(20.0, math.radians(3))
+    lone = turned_on(12, (16.0, 0.0, 3.0), (lead.real, lead.imag))
+    end = lead * cmath.rect(1.0, math.radians(-30))
+    assert volume(turned_on(12, (16.0, 0.0), (end.real, end.imag, 3.0))) == pytest.approx(volume(lone), rel=1e-12)
     hook = (20.0, 0.0), (16.0, -1.0)
     step = cmath.rect(1.0, math.tau / 16)
     ends = (20 + 0j, 16 - 1j, 20 * step)
@@ -479,9 +484,14 @@ def test_a_grid_of_holes_is_refused_by_the_key_that_cures_it() -> None:
     check_refused(scene(rows=9), place("rows"), 9, "grid_lies_outside", 4)
     check_offer(scene(pitch=11.0), place("pitch"), 11.0, "grid_lies_outside", 53 / 5, "at_most")
     check_refused(scene(row_pitch=12.0), place("rows"), 4, "grid_lies_outside", 3)
-    check_offer(scene(pitch=3.0), place("pitch"), 3.0, "grid_holes_meet", 4.0, "at_least")
+    for hole in (4.0, 3.0, 7.1, 0.3):
+        tight = scene(diameter=hole, pitch=hole / 2)
+        check_offer(tight, place("pitch"), hole / 2, "grid_holes_meet", hole + 2e-6, "at_least")
+    # where neither number alone cures it, whatever the digits of the diameter
+    corner = scene(at=[0.0, 0.0], columns=3, rows=3, diameter=3.0)
+    check_offer(corner, place("pitch"), 50.0, "grid_lies_outside", 18.5 / 2, "at_most")
     large = scene(at=[-20.0, -10.0], columns=2, rows=2, diameter=12.0)
-    check_offer(large, place("pitch"), 10.0, "grid_holes_meet", 12.0, "at_least")
+    check_offer(large, place("pitch"), 10.0, "grid_holes_meet", 12.0 + 2e-6, "at_least")
     for wrong, key, code in (
         (scene(pitch=None), "pitch", "grid_needs_pitch"),
         (scene(columns=40, rows=30), "rows", "grid_of_too_many_holes"),
