@@ -125,7 +125,9 @@ def _together(
         for edge in edges:
             curves.append(moved := _moved(edge, place.origin))
             canvas.add("CUT", moved)
-        if Box(0.0, 0.0, 0.0, 0.0).within(box):
+        # that of a small part beside the frame would leave the sheet
+        cross = Box(-_MARK, -_MARK, _MARK, _MARK).moved(place.origin)
+        if Box(0.0, 0.0, 0.0, 0.0).within(box) and cross.within(frame):
             draw(canvas, "CENTRE_MARK", _CROSS, place)
         at, deep = at + cell.real + OVERLAP, max(deep, cell.imag)
     return Expected(canvas, Paper(1.0, 0j), (), {"CUT": list(curves)})

@@ -134,6 +134,16 @@ def test_parts_that_one_sheet_holds_share_it_ten_millimetres_apart() -> None:
     assert len(captions) == 4
 
 
+def test_the_mark_of_a_small_part_keeps_within_the_sheet() -> None:
+    """The cross of 8 mm of a part of 6 mm at the edge of the sheet left its frame, and the file was refused."""
+    _, sheet = model_of(plate_of("a", 40.0, 40.0) + plate_of("b", 6.0, 6.0)).pages
+    _, small = model_of(plate_of("a", 180.0, 40.0) + plate_of("b", 6.0, 6.0)).pages
+    for canvas, marks in ((sheet.canvas, 4), (small.canvas, 2)):
+        crosses = [stroke.curve for stroke in canvas.strokes if stroke.layer == "CENTRE_MARK"]
+        ends = np.array([point for line in crosses for point in (start_point(line), end_point(line))])
+        assert (len(crosses), canvas.frame.holds(ends)) == (marks, len(ends))
+
+
 def test_no_rod_is_cut_out_of_paper_where_the_notes_tell_its_length() -> None:
     """The rod is called for by its name, or where no notes say how long it is to be cut."""
     parts = plate_of("arm", 40.0, 12.0) + '[parts.axle]\nkind = "pin"\ndiameter = 6.0\nlength = 20.0\n'
