@@ -21,7 +21,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_plain
 from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.body import Body, BodyBuilder
-from geometry.solids.plate import Edge, moved_edges
+from geometry.solids.plate import Edge, boxes_meet, moved_edges
 
 # points of an arc where contours are held against each other: at most, and of one of 1 mm
 _SAMPLES, _OF_ONE = 128, 64.0
@@ -246,11 +246,19 @@ def _crosses(one: Contour, two: Contour) -> bool:
             least, greatest = other.span(round_one.circle[0])
             return least <= round_one.circle[1] <= greatest
     p, q = one.points, two.points
-    u, v = np.roll(p, -1) - p, np.roll(q, -1) - q
+    (p_end, q_end), (u, v) = (np.roll(x, -1) for x in (p, q)), (np.roll(x, -1) - x for x in (p, q))
 
     def sides(way: Complex, start: Complex, points: Complex) -> Real:
         return np.asarray((np.conj(way)[:, None] * (points[None, :] - start[:, None])).imag)
 
-    over = sides(u, p, q) * sides(u, p, np.roll(q, -1)) <= 0
-    under = sides(v, q, p) * sides(v, q, np.roll(p, -1)) <= 0
-    return bool((over & under.T).any())
+    over = sides(u, p, q) * sides(u, p, q_end) <= 0
+    under = sides(v, q, p) * sides(v, q, p_end) <= 0
+    # two on one line lie on no side of each other, wherever they are
+    near = boxes_meet(*_boxes(p, p_end), *_boxes(q, q_end))
+    return bool((over & under.T & near).any())
+
+
+def _boxes(starts: Complex, ends: Complex) -> tuple[Complex, Complex]:
+    """The lowest and the highest corners of the rectangles about lines."""
+    both = np.array([starts, ends])
+    return both.real.min(axis=0) + 1j * both.imag.min(axis=0), both.real.max(axis=0) + 1j * both.imag.max(axis=0)

@@ -299,7 +299,7 @@ def meets_itself(edges: Sequence[Edge]) -> bool:
     near, count = _AT_END * float(np.abs(corners).max()), len(edges)
     low, high = np.array([_box(e) for e in edges]).T
     # a corner that lies on an edge lies in its box
-    lies = _overlap(low - near * (1 + 1j), high + near * (1 + 1j), corners, corners)
+    lies = boxes_meet(low - near * (1 + 1j), high + near * (1 + 1j), corners, corners)
     own = np.arange(count)
     lies[own, own] = lies[own, (own + 1) % count] = False
     for k in np.flatnonzero(lies.any(axis=1)).tolist():
@@ -313,7 +313,7 @@ def crosses_itself(edges: Sequence[Edge]) -> bool:
     """Whether two edges of a boundary meet within both at an angle."""
     low, high = np.array([_box(e) for e in edges]).T
     near = _AT_END * float(np.abs([low, high]).max())
-    pairs = np.argwhere(np.triu(_overlap(low, high, low, high), 1))
+    pairs = np.argwhere(np.triu(boxes_meet(low, high, low, high), 1))
     straight = np.array([isinstance(e, Line) for e in edges])[pairs].all(axis=1)
     ends = np.array([(start_point(e), end_point(e)) for e in edges])
     one_way, other = ends[pairs[straight]].transpose(1, 2, 0)
@@ -328,7 +328,7 @@ def crosses_itself(edges: Sequence[Edge]) -> bool:
     return False
 
 
-def _overlap(low: Complex, high: Complex, lowest: Complex, highest: Complex) -> NDArray[np.bool_]:
+def boxes_meet(low: Complex, high: Complex, lowest: Complex, highest: Complex) -> NDArray[np.bool_]:
     """Which boxes (n,) have a place in common with which others (m,), by their corners: (n, m)."""
     found = (low.real[:, None] <= highest.real) & (high.real[:, None] >= lowest.real)
     return found & (low.imag[:, None] <= highest.imag) & (high.imag[:, None] >= lowest.imag)

@@ -177,3 +177,20 @@ def test_contours_that_meet_are_told_by_both_names() -> None:
         found = refused(scene_of({"kind": "layered", "layers": layers}))
         assert found is not None
         assert (found.key, found.code, found.numbers) == (f"parts.p.{key}", code, told)
+
+
+@pytest.mark.parametrize(("gap", "meets"), [(4.0, False), (0.002, False), (0.0, True), (-2.0, True)])
+def test_windows_with_sides_on_one_line_stand_apart_and_those_that_share_a_piece_of_it_meet(
+    gap: float, meets: bool
+) -> None:
+    """Before, those were refused whose boxes have a place in common: two windows one behind the other along x = y."""
+    windows = [{"points": [[x, x], [x + 10, x + 10], [x + 10 - wide, x + 10 + wide], [x - wide, x + wide]]}
+               for x, wide in ((0, 5), (10 + gap, 6))]  # fmt: skip
+    plate = {"points": [[-20, -20], [60, -20], [60, 60], [-20, 60]]}
+    layers: list[Keys] = [{"thickness": 2.0, "polygons": [plate, *windows]}]
+    found = refused(scene_of({"kind": "layered", "layers": layers}))
+    assert (found is not None and found.code == "contours_cross") == meets
+    if not meets:
+        part = made(layers)
+        volume = part.made_by.moments(part.body(0.0)).volume
+        assert volume == pytest.approx(2.0 * (80 * 80 - 2 * 50 - 2 * 60), rel=1e-12)
