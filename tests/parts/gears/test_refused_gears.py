@@ -41,6 +41,11 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
                     "cutter_trochoid_interference"),
     "ring root": ({**RING, "rounded_root": {"radius_coefficient": 1.2, "full_round": False}},
                   "rounded_root.radius_coefficient", "space_rounding_does_not_fit"),
+    "ring root, pointed": ({**RING, "pressure_angle_deg": 30.0, "rounded_root": {"dedendum_coefficient": 1.3,
+                           "radius_coefficient": 0.0, "full_round": False}}, "rounded_root.dedendum_coefficient",
+                           "space_tooth_pointed"),
+    "ring root below its base": ({**RING, "profile_shift_coefficient": -4.0, "rounded_root": {
+                                 "dedendum_coefficient": 0.3}}, "profile_shift_coefficient", "space_tip_below_base"),
     "rack tip": ({**RACK, "tip_rounding": 2.0}, "tip_rounding", "rounding_does_not_fit"),
     "rack pointed, helical": (
         {**RACK, **HELIX, "basic_rack": {"addendum_coefficient": 2.5, "tip_clearance_coefficient": 0.0}},
