@@ -641,7 +641,15 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _new(options: argparse.Namespace) -> int:
-    from exporters.command.new import commented, new_assembly, new_mate, new_scene, new_table, plain_scene
+    from exporters.command.new import (
+        commented,
+        new_assembly,
+        new_mate,
+        new_scene,
+        new_table,
+        plain_scene,
+        tables_of_kind,
+    )
     from parts.base.refusal import SceneError, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
@@ -660,6 +668,10 @@ def _new(options: argparse.Namespace) -> int:
         text = new_table(options.kind, _language(options))
     if text is None:
         if options.kind not in scenes and not (options.expand and os.path.isfile(options.kind)):
+            if tables := tables_of_kind(options.kind.partition(".")[0]):
+                raise SceneError(
+                    "new", "KIND", options.kind, "unknown_table", meant(options.kind, tables), known=tables
+                )
             known = list(dict.fromkeys([*(kind for kinds, _ in makers for kind in kinds), *built_in]))
             raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
         if options.kind not in scenes:

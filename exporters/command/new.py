@@ -166,11 +166,9 @@ def new_table(place: str, language: str = ENGLISH) -> str | None:
     ``exports`` stands for a kind.
     """
     told, (kind, *names) = words(language), place.split(".")
-    known: Mapping[str, Any] = next((found for found in (KINDS, MATES, RECIPES) if kind in found), {})
-    if not names or not (known or kind == "exports"):
+    tables, is_list = _tables_at(kind), False
+    if not names or not tables:
         return None
-    tables: list[type[Struct]] = [known[kind].keys if known else ExportSpec]
-    is_list = False
     for name in names:
         fields = [f for table in tables for f in fields_of(table) if f.encode_name == name]
         tables = list(dict.fromkeys(one for f in fields for one in structs_of(f.type)))
@@ -185,6 +183,17 @@ def new_table(place: str, language: str = ENGLISH) -> str | None:
                   *_keys(fields_of(table), told)]  # fmt: skip
     # in letters that every terminal has, as all that is new
     return "\n".join(lines).replace("…", "...") + "\n" if tables else None
+
+
+def _tables_at(kind: str) -> list[type[Struct]]:
+    """The keys of a kind, or of ``exports``; none where there is no such kind."""
+    known: Mapping[str, Any] = next((found for found in (KINDS, MATES, RECIPES) if kind in found), {})
+    return [known[kind].keys] if known else [ExportSpec] if kind == "exports" else []
+
+
+def tables_of_kind(kind: str) -> list[str]:
+    """What ``new_table`` can be asked for of a kind."""
+    return [f"{kind}.{f.encode_name}" for table in _tables_at(kind) for f in fields_of(table) if structs_of(f.type)]
 
 
 def _scene_of(kind: str) -> Path | None:

@@ -34,8 +34,11 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """One line, and where there is more."""
-        text = self.words.text("{message}; see `{command} --help`", message=message, command=self.prog)
-        raise Misused(f"higherpair: {text}")
+        _refuse(self.words, message, self.prog)
+
+
+def _refuse(words: Words, message: str, command: str) -> NoReturn:
+    raise Misused(f"higherpair: {words.text('{message}; see `{command} --help`', message=message, command=command)}")
 
 
 def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
@@ -51,7 +54,8 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
     options, rest = parser.parse_known_args(arguments)
     several: tuple[str, Callable[[str], object]] | None = getattr(options, "several", None)
     if strange := [word for word in rest if several is None or word.startswith("-")]:
-        parser.error(parser.words.text("unrecognized arguments: %s") % " ".join(strange))
+        text = parser.words.text("unrecognized arguments: %s") % " ".join(strange)
+        _refuse(parser.words, text, f"{parser.prog} {options.command}")
     if several is not None:
         name, made_by = several
         getattr(options, name).extend(map(made_by, rest))

@@ -265,21 +265,23 @@ def spoked(keys: K, core: float) -> K:
         return keys
     inner, outer = spokes.inner_diameter, spokes.outer_diameter
     hub, web, module = (getattr(keys, key, None) for key in ("hub", "web", "module"))
-    if inner is None:
-        short: float = getattr(keys, "bore_diameter", None) or 0.0
-        reach = hub_holes(getattr(keys, "bore", None), None, None).bore_reach or short / 2
-        around = _HUB_SHARE * 2 * reach if hub is None else 0.0
-        radius, sine = spokes.corner_radius, math.sin(math.pi / spokes.count)
-        # between the roundings of neighbouring spokes a tenth is left
-        inner = max(
-            around,
-            0.0 if hub is None else _OFF * hub.diameter,
-            2.2 * ((spokes.width / 2 + radius) / sine - radius),
-        )
     if outer is None:
         outer = (
             2 * (core - (_RIM_MODULES * module if module else core / 10)) if web is None else web.rim_diameter / _OFF
         )
+    radius, sine = spokes.corner_radius, math.sin(math.pi / spokes.count)
+    if inner is None:
+        short: float = getattr(keys, "bore_diameter", None) or 0.0
+        reach = hub_holes(getattr(keys, "bore", None), None, None).bore_reach or short / 2
+        ring = _HUB_SHARE * 2 * reach if hub is None else _OFF * hub.diameter
+        # between the roundings of neighbouring spokes a tenth is left
+        inner = max(ring, 2.2 * ((spokes.width / 2 + radius) / sine - radius))
+        widest = 2 * (((outer - 5 * radius) / 2.2 + radius) * sine - radius)
+        if not inner < outer and ring < outer and widest > 0:
+            most = limit(widest * _WITHIN, spokes.width)
+            raise ParameterError("spokes.width", spokes.width, "no_room_for_spokes", most, ring=inner, rim=outer)
+    if not inner < outer:
+        raise ParameterError("spokes", None, "no_room_for_spokes", None, ring=inner, rim=max(outer, 0.0))
     return replace(keys, spokes=replace(spokes, inner_diameter=inner, outer_diameter=outer))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from copy import deepcopy
 from fractions import Fraction
 from functools import partial, wraps
 from typing import Any, Protocol, TypeVar
@@ -11,7 +12,7 @@ from typing import Any, Protocol, TypeVar
 import msgspec
 from msgspec import Struct
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import ParameterError, format_value
 from parts.base.refusal import REMOVED, SceneError, explained, meant, placed
 from parts.base.schema import converted, fields_of, unit_of
 from parts.base.texts import Message
@@ -94,7 +95,18 @@ def given(spec: Struct) -> dict[str, Any]:
 
 def checked(table: dict[str, Any], kind: type[Struct], topic: str) -> Any:
     """A table as the struct of a topic; refusals name the key and its nearest neighbour."""
-    return converted(table, kind, PLACE, topic)
+    try:
+        return converted(table, kind, PLACE, topic)
+    except SceneError as refusal:
+        path = refusal.key.removeprefix(f"{topic}.").split(".")
+        if not refusal.code.startswith("number_not_quoted") or "[" in refusal.key:
+            raise
+        # no shell leaves the quotes that make text of digits
+        changed = owner = deepcopy(table)
+        for step in path[:-1]:
+            owner = owner[step]
+        owner[path[-1]] = format_value(refusal.value)
+        return checked(changed, kind, topic)
 
 
 def refusal(topic: str, error: ParameterError, owner: str = "", keys: Struct | None = None) -> SceneError:

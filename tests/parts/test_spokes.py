@@ -61,6 +61,31 @@ def test_a_hub_a_web_and_wide_spokes_give_the_rings() -> None:
     # twelve spokes of 4 mm do not fit about a ring of 9.6 mm
     wide = made(part | {"spokes": {"count": 12, "width": 4.0}}).thing.holes.spokes
     assert wide.inner_diameter > 4.0 / math.sin(math.pi / 12)
-    fault = refused(scene_of(part | {"spokes": {"count": 12, "width": 30.0}}))
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "side"),
+    [
+        # before: inner and outer diameters that nobody typed were blamed
+        ({"number_of_teeth": 6, "spokes": {"count": 5, "width": 0.5}}, "spokes", None),
+        ({"number_of_teeth": 17, "bore_diameter": 8.0, "spokes": {"count": 5, "width": 0.5}}, "spokes", None),
+        ({"number_of_teeth": 30, "spokes": {"count": 12, "width": 30.0}}, "spokes.width", "at_most"),
+        (
+            {"number_of_teeth": 22, "spokes": {"count": 3, "width": 13.0, "corner_radius": 0.4}},
+            "spokes.width",
+            "at_most",
+        ),
+    ],
+)
+def test_spokes_without_room_are_told_by_what_was_typed(keys: dict[str, Any], key: str, side: str | None) -> None:
+    part = {"kind": "spur_gear", "module": 1.0, **keys}
+    fault = refused(scene_of(part))
     assert fault is not None
-    assert fault.key.startswith("parts.p.spokes.")
+    assert (fault.key, fault.code) == (f"parts.p.{key}", "no_room_for_spokes")
+    found = fault.nearest
+    assert (found and found.side) == side
+    if found is not None:
+        spokes = part["spokes"]
+        assert isinstance(found.value, float)
+        assert refused(scene_of(part | {"spokes": spokes | {"width": found.value}})) is None
+        assert refused(scene_of(part | {"spokes": spokes | {"width": 1.001 * found.value}})) is not None

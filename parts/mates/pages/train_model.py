@@ -14,6 +14,7 @@ from typing import TypeVar
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
 from geometry.kinematics.mechanism import FRAME, Fixed, Kind, Mechanism, Revolute, Rolling, Z
+from parts.base.texts import message
 
 KINDS: tuple[Kind, ...] = ("external", "internal", "bevel", "worm", "crossed")
 # those whose axes are not parallel: the ratio has no sign but where it is told
@@ -167,11 +168,14 @@ def _mesh(word: str, teeth: Mapping[str, int]) -> Mesh:
     if found is None:
         raise ParameterError("meshes", word, "write_mesh")
     first, second, rest = found[1], found[2], found[3].split()
+    if first == second:
+        raise ParameterError("meshes", word, "rolls_on_itself")
+    if not teeth:
+        what = message("numbers of teeth of wheels 1, 2, … in a list, as [20, 40]")
+        raise ParameterError("teeth", None, "missing_key", None, what=what)
     for name in (first, second):
         if name not in teeth:
             raise ParameterError("meshes", word, "no_such_wheel", None, wheel=name, known=list(teeth))
-    if first == second:
-        raise ParameterError("meshes", word, "rolls_on_itself")
     kind: Kind = "external"
     module, sense = None, 0
     for more in rest:

@@ -150,7 +150,8 @@ def test_options_may_stand_among_the_words(
         assert run(*arguments) == 0
         said.append(capsys.readouterr().out)
     assert said[0] == said[1] != ""
-    assert "unrecognized arguments: --nothing;" in complaint(capsys, *other, "--nothing")
+    told = complaint(capsys, *other, "--nothing")
+    assert f"unrecognized arguments: --nothing; see `higherpair {other[0]} --help`" in told
 
 
 def test_what_is_left_over_of_a_command_of_one_scene_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

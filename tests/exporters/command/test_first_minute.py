@@ -87,12 +87,25 @@ def test_new_tells_every_key_of_a_table_and_each_bore_that_it_shows_is_made(
     assert "\n# checked = " in said(capsys, "new", "exports.title_block")
 
 
-@pytest.mark.parametrize("place", ["spur_gear.module", "spur_gear.bor", "spur_gear.bore.flat", "exports", "gear.bore"])
-def test_a_key_that_takes_no_table_is_refused_as_an_unknown_kind(
-    place: str, capsys: pytest.CaptureFixture[str]
+# what is asked for, what it is no known one of, what was meant
+NO_TABLES = [
+    ("spur_gear.module", "table", ""),
+    ("spur_gear.bor", "table", "spur_gear.bore"),
+    ("spur_gear.bore.flat", "table", "spur_gear.bore"),
+    ("plate.hole", "table", "plate.holes"),
+    ("exports", "table", ""),
+    ("gear.bore", "kind", ""),
+]
+
+
+@pytest.mark.parametrize(("place", "what", "meant"), NO_TABLES)
+def test_a_key_that_takes_no_table_is_refused_with_those_that_do(
+    place: str, what: str, meant: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("new", place) == 2
-    assert f'KIND = "{place}": unknown kind' in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert f'KIND = "{place}": unknown {what}' in told
+    assert not meant or told.endswith(f"did you mean {meant}?\n")
 
 
 def test_new_in_english_is_ascii(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1106,3 +1106,13 @@ def test_a_rim_wider_than_its_throat_is_calculated() -> None:
     used = [values_of(f"worm module=2 number_of_teeth=40 face_width={b}")["values"] for b in (16, 17, 200)]
     assert used[0]["worm_length_used"] < used[1]["worm_length_used"]
     assert "worm_length_used" not in used[2]
+
+
+def test_text_of_digits_needs_no_quotes_which_no_shell_leaves(capsys: pytest.CaptureFixture[str]) -> None:
+    pages = []
+    for chain in ("40", '"40"'):
+        assert run("calc", "sprocket", "number_of_teeth=17", f"chain={chain}") == 0
+        pages.append(capsys.readouterr().out)
+    # 40 of ANSI is half an inch
+    assert pages[0] == pages[1]
+    assert "p = 12.7 mm" in pages[0]

@@ -184,9 +184,9 @@ def test_the_scene_says_in_which_language_its_command_is_misused(tmp_path: Path)
     scene.write_text('[scene]\nlanguage = "uk"\n', "utf-8")
     code = "from exporters.command.cli import main\nmain({!r})"
     told = run(code.format(["build", str(scene), "--nothing"]))
-    assert told == "higherpair: невідомі аргументи: --nothing; див. `higherpair --help`\n"
+    assert told == "higherpair: невідомі аргументи: --nothing; див. `higherpair build --help`\n"
     told = run(code.format(["build", str(scene), "--nothing", "--language", "en"]))
-    assert told == "higherpair: unrecognized arguments: --nothing; see `higherpair --help`\n"
+    assert told == "higherpair: unrecognized arguments: --nothing; see `higherpair build --help`\n"
     assert "використання: " in run(code.format(["build", str(scene), "--help"]))
 
 

@@ -154,6 +154,11 @@ WORDS: list[tuple[str, str, str]] = [
     ("train teeth=[20,40] meshes=1-2 driver=1 driven=1", "train.driven", "driven_is_driver"),
     ("train teeth=[20,40] meshes=1+2", "train.meshes", "write_mesh"),
     ("train teeth=[20,40] meshes=1-3", "train.meshes", "no_such_wheel"),
+    ("train meshes=1-2", "train.teeth", "missing_key"),
+    ("train meshes=1-1", "train.meshes", "rolls_on_itself"),
+    # no such word, quoted or not
+    ("worm module=2 form=5", "worm.form", "wrong_type_of"),
+    ("sprocket chain=41.5 number_of_teeth=17", "sprocket.chain", "no_such_chain"),
     ("train teeth=[20,40] meshes=1-2 held=7", "train.held", "no_such_link"),
     ("train teeth=[20,40] meshes=1-2 carriers.1=1", "train.carriers.1", "stands_on_itself"),
     ("train teeth=[20,40] meshes=1-1", "train.meshes", "rolls_on_itself"),
