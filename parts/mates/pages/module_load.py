@@ -41,7 +41,7 @@ from geometry.kinematics.two_disk_load import (
 )
 from parts.base.texts import N_, message
 from parts.keys.base import mm, size
-from parts.mates.pages.power_table import DRIVES, TwoDiskKeys
+from parts.mates.pages.power_table import DRIVES, TwoDiskKeys, check_reach
 from parts.pages.page import Sheet, Table, table_of
 
 _WORM = "thesis, 2.2"
@@ -111,7 +111,8 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
             if self.elbow is not None:
                 raise ParameterError("elbow", self.elbow, "needs_other", None, other="x, y")
             return None
-        delta, beta = self.table.inverse(complex(self.x, self.y), self.elbow or 1)
+        check_reach(self.table, at := complex(self.x, self.y))
+        delta, beta = self.table.inverse(at, self.elbow or 1)
         return float(delta), float(beta)
 
     @property

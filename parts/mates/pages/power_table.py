@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 from msgspec import Meta, Struct
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
@@ -25,6 +25,8 @@ from parts.pages.table_scheme import scheme
 
 TOPIC = "power-table"
 _THESIS = "thesis, 2.1"
+# the keys of a point, together
+_PLACES = "x, y"
 _MOST = 10_000.0
 # I turns disk 2, II the ring
 DRIVES = {"I": N_("drive I"), "II": N_("drive II")}
@@ -105,6 +107,22 @@ def given(page: Sheet, keys: TwoDiskKeys) -> None:
         page.add("number_of_teeth", keys.orientation_teeth[1], symbol="z_8")
 
 
+def check_reach(table: TwoDisk, points: Complex | complex) -> None:
+    """Refuse points out of reach, with what is typed for the nearest that is in it.
+
+    Raises
+    ------
+    ParameterError
+        Of the first such point.
+    """
+    try:
+        table.inverse(points)
+    except ParameterError as refusal:
+        near = refusal.nearest.value if refusal.nearest is not None else None
+        typed = Nearest("x={:.12g} y={:.12g}".format(*near), "meant") if isinstance(near, list) else None
+        raise refusal.told_of(_PLACES, refusal.value, typed) from refusal
+
+
 def _points(page: Sheet, keys: PowerTableKeys) -> None:
     """One point step by step, for both elbows; and the table."""
     if keys.x is None or keys.y is None:
@@ -116,6 +134,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     if len(x) != len(y) or not len(x):
         raise ParameterError("y", keys.y, "as_many_as_x")
     points, table = x + 1j * y, keys.table
+    check_reach(table, points)
     given(page, keys)
     if len(points) == 1:
         _steps(page, keys, complex(points[0]))
@@ -189,7 +208,11 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     if not pieces:
         raise ParameterError("path", None, "no_path")
     start = None if keys.start_deg is None else math.radians(keys.start_deg)
-    rows = followed(table, pieces, keys.tolerance, keys.elbow or 1, start)
+    try:
+        rows = followed(table, pieces, keys.tolerance, keys.elbow or 1, start)
+    except ParameterError as refusal:
+        # x and y are no keys beside a path
+        raise (refusal.told_of("path", refusal.value, None) if refusal.name == _PLACES else refusal) from refusal
     given(page, keys)
     page.section("Path")
     page.add("path_length", float(rows.way[-1]))

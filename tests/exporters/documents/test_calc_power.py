@@ -93,7 +93,7 @@ def test_what_is_refused() -> None:
         text = sentence(refused.value, "en")
         if told == "x = 100":
             told, nearest = "156.205 mm from O1", 144 * complex(100, 120) / abs(complex(100, 120))
-            offered = complex(*json.loads(text[text.rindex("[") : text.rindex("]") + 1]))
+            offered = complex(*map(float, re.findall(r"[xy]=([\d.]+)", text)))
             assert abs(offered - nearest) < 2e-6
             assert abs(offered) <= 144
         assert told in text, text
@@ -460,6 +460,20 @@ def test_loads_that_are_refused_or_too_much() -> None:
     assert any("do not hold" in note for note in notes)
     page = calculate("power-module", ("force_y=900",), "html", "uk")
     assert all(text in page for text in ("перекидний", "1378,8"))
+
+
+def test_points_out_of_reach_offer_what_can_be_typed() -> None:
+    """Before: a list for the keys ``x, y``, which there are none of."""
+    for topic in ("power-table", "power-module"):
+        with pytest.raises(SceneError) as refused:
+            calculate(topic, ("x=-3000", "y=40"), "text", "en")
+        assert refused.value.nearest is not None
+        typed = str(refused.value.nearest.value).split()
+        assert math.hypot(*(float(word[2:]) for word in typed)) == pytest.approx(144, abs=1e-5)
+        assert calculate(topic, typed, "text", "en")
+    with pytest.raises(SceneError) as refused:
+        calculate("power-table", ("path=[[50,80,160,90,0]]",), "text", "en")
+    assert (refused.value.key, refused.value.code) == ("power-table.path", "out_of_reach")
 
 
 def test_what_is_missing_of_a_place_is_told_in_the_language_asked(capsys: Any) -> None:
