@@ -12,6 +12,7 @@ from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import end_point
+from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, arc_between
 from geometry.gears.teeth.involute_teeth import InvoluteTeeth
@@ -43,6 +44,19 @@ def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float, cutt
             name, given, lack = f"cutter.{name}", cutter_shift, math.copysign(lack, -cutter_shift)
         raise ParameterError.beyond(name, given, "no_working_angle_with_cutter", given + lack)
     return inverse_involute(value)
+
+
+def cut_fillet(gear: InvoluteTeeth, cutter: PinionCutter, distance: float, angle: float) -> CutterFillet:
+    """The lower root fillet that a cutter leaves at a ``distance`` of the axes, mm, rolling at an ``angle``, rad.
+
+    It begins in the middle of a space: of a ring that of space 1, runs clockwise there, material on its left.
+    """
+    total = gear.number_of_teeth + gear.sign * cutter.number_of_teeth
+    pitch_radius, rolling = distance * gear.number_of_teeth / total, distance * cutter.number_of_teeth / total
+    middle = -gear.pitch_angle / 2 if gear.sign > 0 else 0.0
+    land = middle + gear.sign * cutter.corner_angle * rolling / pitch_radius
+    depth, end = cutter.corner_radius - rolling, math.pi / 2 - angle
+    return CutterFillet(pitch_radius, -gear.sign * rolling, depth, cutter.rounding_radius, land, 0.0, end)
 
 
 class PinionCutter(InvoluteTeeth, dict=True):

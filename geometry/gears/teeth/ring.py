@@ -14,7 +14,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
-from geometry.gears.teeth.cutter import PinionCutter, cutting_angle
+from geometry.gears.teeth.cutter import PinionCutter, cut_fillet, cutting_angle
 from geometry.gears.teeth.involute_teeth import InvoluteTeeth
 from geometry.solids.hub_holes import HubHoles
 
@@ -163,13 +163,7 @@ class RingGear(InvoluteTeeth, dict=True):
 
     def fillet(self) -> CutterFillet:
         """The lower root fillet of space 1 from the root circle to the flank; runs clockwise, material on its left."""
-        cutter, angle = self._known_cutter, self.generating_angle
-        difference = self.number_of_teeth - cutter.number_of_teeth
-        pitch_radius = self.generating_distance * self.number_of_teeth / difference
-        rolling = self.generating_distance * cutter.number_of_teeth / difference
-        land = -cutter.corner_angle * rolling / pitch_radius
-        depth = cutter.corner_radius - rolling
-        return CutterFillet(pitch_radius, rolling, depth, cutter.rounding_radius, land, 0.0, math.pi / 2 - angle)
+        return cut_fillet(self, self._known_cutter, self.generating_distance, self.generating_angle)
 
     @property
     def cut_form_length(self) -> float:

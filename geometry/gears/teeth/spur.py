@@ -165,7 +165,10 @@ class SpurGear(InvoluteTeeth, dict=True):
     def fillet(self) -> RackFillet | CutterFillet:
         """The lower root fillet of tooth 1 as far as the rounding reaches, whether cut away or not."""
         if self.cutter is not None:
-            return self._cutter_fillet(replace(self.cutter, widening=self._widening))
+            from geometry.gears.teeth.cutter import cut_fillet
+
+            cutter = replace(self.cutter, widening=self._widening)
+            return cut_fillet(self, cutter, self.generating_distance, self.generating_angle)
         angle = -self.pitch_angle / 2 + self.root_land_half_angle
         end = math.pi / 2 - self.pressure_angle
         radii = self.reference_radius, self.rounding_depth, self.rounding_radius
@@ -174,13 +177,3 @@ class SpurGear(InvoluteTeeth, dict=True):
 
             return EllipticFillet(*radii, angle, 0.0, end, self.rounding_radius, self.rack.stretch)
         return TrochoidFillet(*radii, angle, 0.0, end)
-
-    def _cutter_fillet(self, cutter: PinionCutter) -> CutterFillet:
-        from geometry.curves.cutter_fillet import CutterFillet
-
-        teeth = self.number_of_teeth + cutter.number_of_teeth
-        pitch_radius = self.generating_distance * self.number_of_teeth / teeth
-        rolling = self.generating_distance * cutter.number_of_teeth / teeth
-        angle = -self.pitch_angle / 2 + cutter.corner_angle * rolling / pitch_radius
-        depth, end = cutter.corner_radius - rolling, math.pi / 2 - self.generating_angle
-        return CutterFillet(pitch_radius, -rolling, depth, cutter.rounding_radius, angle, 0.0, end)
