@@ -15,13 +15,12 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import ConvergenceError, UndercutError
 from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.pairs.sliding import specific_sliding
 from geometry.gears.shifts.racked_teeth import RackedTeeth
 from geometry.gears.teeth.basic_rack import BasicRack
-from geometry.gears.teeth.joints import fillet_flank_joint
+from geometry.gears.teeth.joints import form_length
 from geometry.gears.teeth.limits import Margin, least_shift_without_undercut
 from geometry.gears.teeth.spur import SpurGear
 
@@ -117,12 +116,7 @@ def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
     if tangent >= 0:
         return tangent
     gear = SpurGear(1.0, number_of_teeth, rack, shift)
-    try:
-        _, flank = fillet_flank_joint(gear.fillet(), gear.flank())
-    except (UndercutError, ConvergenceError):
-        # far below the last shift that leaves a tooth no fillet has a point at all
-        return _NAN
-    return flank.start_roll * flank.base_radius
+    return form_length(gear.fillet(), gear.flank())
 
 
 def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:

@@ -12,13 +12,12 @@ import math
 from functools import lru_cache
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.sliding import specific_sliding
 from geometry.gears.shifts.racked_teeth import RackedTeeth
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.internal_mesh import InternalMesh
-from geometry.gears.teeth.joints import fillet_flank_joint
+from geometry.gears.teeth.joints import form_length
 from geometry.gears.teeth.limits import least_shift_without_undercut
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_limits import generation
@@ -217,11 +216,7 @@ def pinion_form(pair: InternalShiftPair, shift: float) -> float:
     nan where the fillet leaves no tooth.
     """
     gear = pair.pinion(shift)
-    try:
-        _, flank = fillet_flank_joint(gear.fillet(), gear.flank())
-    except (ConvergenceError, ParameterError):
-        return _NAN
-    return flank.start_roll * flank.base_radius
+    return form_length(gear.fillet(), gear.flank())
 
 
 @lru_cache(maxsize=256)

@@ -10,7 +10,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING, TypeAlias
 
-from geometry.base.errors import UndercutError
+from geometry.base.errors import ConvergenceError, ParameterError, UndercutError
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.intersect import crossing_circle
@@ -56,6 +56,16 @@ def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet,
     crossing = bracketed_root(lead, at_base, fillet.end).value
     radius = abs(complex(fillet.point(crossing)))
     return replace(fillet, end=crossing), replace(flank, start_roll=flank.roll_at_radius(radius))
+
+
+def form_length(fillet: GearFillet, flank: Involute) -> float:
+    """Length along the flank's normal from the base circle to where the fillet leaves it; nan where it leaves none."""
+    try:
+        _, left = fillet_flank_joint(fillet, flank)
+    except (ConvergenceError, ParameterError):
+        # far below the last shift that leaves a tooth no fillet has a point at all
+        return math.nan
+    return left.start_roll * left.base_radius
 
 
 def parameter_at_radius(fillet: GearFillet, radius: float) -> float:
