@@ -9,12 +9,10 @@ links; both are taken at the mean speed, which is right for small unevenness.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record
-
-Real = NDArray[np.float64]
+from geometry.curves.curve import Real
 
 
 class Cycle(Record, eq=False):

@@ -12,15 +12,14 @@ import cmath
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.base.series import Series, conjugate, derived, power, product
+from geometry.curves.curve import Complex, Real
 from geometry.kinematics.linkage import cosine_range
 
-Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 # what an offered length leaves, parts of it: at the very limit the links stand in one line
 _ROOM = 1e-6
 # parts of its links by which a group may still be apart where it is at its limit: a root has half of the digits

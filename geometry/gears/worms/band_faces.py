@@ -15,14 +15,11 @@ from geometry.approximation.tensor import axis_poles, clamped, greville
 from geometry.curves.curve import Real
 from geometry.gears.worms.band import Band, Cell
 from geometry.gears.worms.body import WormBody
-from geometry.gears.worms.shaft_faces import WormRings
+from geometry.gears.worms.shaft_faces import REST, WormRings
 from geometry.gears.worms.strips import DEGREE, fitted_knots
 from geometry.solids import faces as kinds
 from geometry.solids.faces import Frame, Index, Spline, Straight, Use, turned_over
 from geometry.solids.rings import UP
-
-# steps of the angle a turn, and what is left of one at an end at least
-_STEPS, _REST = 4, 0.25
 
 
 class _Side:
@@ -56,9 +53,8 @@ class BandFaces(WormRings):
     def __init__(self, body: WormBody, band: Band, tolerance: float) -> None:
         super().__init__(body)
         self.band, self.lines = band, band.lines
-        self.between = max(1, math.ceil(_STEPS / len(self.starts)))
-        self.step = math.tau / (len(self.starts) * self.between)
-        alike = band.cells(self.step, _REST)
+
+        alike = band.cells(self.step, REST)
         self.kinds = alike
         # every cell by itself
         self.cells = [
@@ -254,7 +250,7 @@ class BandFaces(WormRings):
             return self.band.turned + (number - count / 2) * self.step
 
         nodes = ({k: feet[c] for k, c in levels.items()}, {k - self.between: heads[c] for k, c in levels.items()})
-        pitch, margin = math.tau / n, _REST * self.step / 2
+        pitch, margin = math.tau / n, REST * self.step / 2
         room = [(at - pitch + margin + self.band.turned, at - margin + self.band.turned) for at in (-end, end)]
         on_low, on_high, lines = self.uprights(sorted({*nodes[0], *nodes[1]}), nodes, angle_of, room, radius, height)
         # where the bands end: upright lines to the circles, both of one band, taken with the band above too

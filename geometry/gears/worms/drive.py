@@ -10,15 +10,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.worm import Worm
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
-
 
 # b_1 / m by GOST 19650: shift, then (number, share of z_1, share of z_2) for one or two starts and for more
 _LENGTHS = (

@@ -20,7 +20,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.band import Lifted
 from geometry.gears.worms.band_faces import BandFaces
 from geometry.gears.worms.body import Screwed, WormBody, worm_moments
-from geometry.gears.worms.shaft_faces import WormRings
+from geometry.gears.worms.shaft_faces import REST, WormRings
 from geometry.gears.worms.strips import DEGREE, MARGIN, TARGET, fitted_knots
 from geometry.gears.worms.thread import SectionLine
 from geometry.solids import faces as kinds
@@ -28,11 +28,6 @@ from geometry.solids.faced import FacedBody, FacedSolid, Measured
 from geometry.solids.faces import Frame, Index, Spline, Straight, Use, turned_over
 from geometry.solids.rings import AHEAD, UP
 from geometry.solids.splines import involute_walls
-
-# steps of the polar angle: one start has so many a turn; more starts have one or two from thread to thread
-_STEPS = 4
-# what is left between an axial plane and an end, part of a step
-_REST = 0.25
 
 
 def faced_worm(body: WormBody) -> FacedBody:
@@ -97,9 +92,6 @@ class CutThreads(WormRings):
         self.joints = [complex(line.point(line.domain[0])) for line in self.lines]
         self.joints.append(complex(self.worm.tip_radius, self.thread.tip_half))
         self.joints[0] = complex(self.worm.root_radius, self.thread.root_half)
-        # steps from thread to thread, and their angle
-        self.between = max(1, math.ceil(_STEPS / len(self.starts)))
-        self.step = math.tau / (len(self.starts) * self.between)
         self.steps = self._steps()
 
         def points(k: int, u: Real, v: Real) -> Real:
@@ -120,7 +112,7 @@ class CutThreads(WormRings):
         """How many even steps there are between both ends of all lines."""
         places = np.concatenate([line.point(np.linspace(*line.domain, 65)) for line in self.lines])
         least = min(float(self._end(1, side, places).min()) for side in (1, -1))
-        return max(0, math.floor(2 * (least - _REST * self.step) / self.step))
+        return max(0, math.floor(2 * (least - REST * self.step) / self.step))
 
     def level(self, number: int) -> float:
         """The angle of an even step; half of them lie on each side of 0."""
@@ -132,7 +124,7 @@ class CutThreads(WormRings):
         for end in (-1, 1):
             limit, root = self._end(end, side, place), float(self._end(end, side, np.array(self.joints[0])))
             base = self.level(self.steps if end > 0 else 0)
-            extra = max(0, math.ceil((abs(root - base) - _REST * self.step) / self.step) - 1)
+            extra = max(0, math.ceil((abs(root - base) - REST * self.step) / self.step) - 1)
             own = [base + (limit - base) * (end * k * self.step / (root - base)) for k in range(1, extra + 1)]
             own.append(limit)
             steps = [(self.steps if end > 0 else 0) + end * k for k in range(1, extra + 2)]
@@ -277,7 +269,7 @@ class CutThreads(WormRings):
             number - self.between: lower.corners[0][above, c]
             for c, number in enumerate(lower.levels) if self._inner(lower, c)
         }  # fmt: skip
-        margin = _REST * self.step / 2
+        margin = REST * self.step / 2
         room = [
             (float(self._end(end, -1, root)[0]) - math.tau / n + margin, float(self._end(end, 1, root)[0]) - margin)
             for end in (-1, 1)

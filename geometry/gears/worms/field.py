@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_roots, halved
+from geometry.curves.curve import Real
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
-
-Real = NDArray[np.float64]
 
 # heights at which lines begin or end is looked for, radii at which the way of the contact is looked at, halvings
 _HEIGHTS, _RADII, _HALVINGS = 129, 33, 52

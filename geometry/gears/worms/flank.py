@@ -12,12 +12,11 @@ from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root, bracketed_roots
-
-Real = NDArray[np.float64]
+from geometry.curves.curve import Real
 
 # places at which a least one is sought, and how often nearer
 _PLACES, _ROUNDS = 33, 9

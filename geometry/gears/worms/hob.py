@@ -18,11 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.worm import Worm
-
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 
 # half the tip between its roundings is no narrower, modules: faces less wide are turned over by rounding
 _LEAST_LAND = 1e-3

@@ -16,6 +16,11 @@ from geometry.solids import faces as kinds
 from geometry.solids.faces import Circular, Index, Straight, Use, loop_of, turned_over
 from geometry.solids.rings import UP, Ring, RingBuilder
 
+# steps of the polar angle: one start has so many a turn; more starts have one or two from thread to thread
+_STEPS = 4
+# what is left of a step at an end at least, part of it
+REST = 0.25
+
 
 class WormRings(RingBuilder):
     """Vertices, edges and faces of one worm; angles are those of a right-hand one.
@@ -27,6 +32,9 @@ class WormRings(RingBuilder):
         super().__init__()
         self.body, self.thread, self.worm = body, body.thread, body.thread.worm
         self.starts = np.arange(self.worm.number_of_starts)
+        # steps from thread to thread, and their angle
+        self.between = max(1, math.ceil(_STEPS / len(self.starts)))
+        self.step = math.tau / (len(self.starts) * self.between)
         self.rims: dict[int, list[Use]] = {}
 
     def placed(self, points: Real) -> Index:

@@ -20,12 +20,11 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_roots
+from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Line
 from geometry.gears.worms.hob import Cut, Hob, Meridian
 from geometry.plane.profile import Label, Profile, Segment
 
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
 # of a search
 _Looked = tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]
 

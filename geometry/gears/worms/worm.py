@@ -10,15 +10,15 @@ from functools import cached_property, partial
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Real
 from geometry.gears.worms.flank import FORMS, Flank, Screw
 
-Real = NDArray[np.float64]
 Hand = Literal["right", "left"]
 # half the least land of a thread and of a space, and the least of a flank, modules: thinner faces take no mesh
 LEAST_LAND = 1e-3
