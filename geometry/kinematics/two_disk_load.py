@@ -336,13 +336,14 @@ def crank_force(stage: int) -> Amount:
     return Amount(lambda state, _: state.crank(stage), lambda slopes: slopes.cranks[stage])
 
 
+def _length(vectors: Callable[[Carried], Vectors], slopes: Callable[[Slopes], Real]) -> Amount:
+    """That of a sum of vectors."""
+    return Amount(lambda state, length: length(vectors(state)), slopes, vectors)
+
+
 def radial(bearing: Bearing) -> Amount:
     """Across the axis, N."""
-    return Amount(
-        lambda state, length: length(_forces(state, bearing)),
-        lambda slopes: slopes.bearings[bearing][0],
-        lambda state: _forces(state, bearing),
-    )
+    return _length(lambda state: _forces(state, bearing), lambda slopes: slopes.bearings[bearing][0])
 
 
 def along_axis(bearing: Bearing) -> Amount:
@@ -352,11 +353,7 @@ def along_axis(bearing: Bearing) -> Amount:
 
 def tilting(bearing: Bearing) -> Amount:
     """Moment across the axis, N mm."""
-    return Amount(
-        lambda state, length: length(_tilts(state, bearing)),
-        lambda slopes: slopes.bearings[bearing][2],
-        lambda state: _tilts(state, bearing),
-    )
+    return _length(lambda state: _tilts(state, bearing), lambda slopes: slopes.bearings[bearing][2])
 
 
 def at_edge(bore: tuple[float, float], upper: int) -> Amount:
@@ -372,7 +369,7 @@ def at_edge(bore: tuple[float, float], upper: int) -> Amount:
         force, _, tilt = slopes.bearings["axle"]
         return tilt / span if upper else force + tilt / span
 
-    return Amount(lambda state, length: length(vectors(state)), slopes, vectors)
+    return _length(vectors, slopes)
 
 
 def ball_load(bearing: Bearing, balls: int, radius: float) -> Amount:
