@@ -14,7 +14,7 @@ from geometry.base.errors import Cure, Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from parts.base.lookalikes import in_latin
-from parts.keys.base import degrees, part_mm
+from parts.keys.base import degrees, either, part_mm
 
 if TYPE_CHECKING:
     from geometry.solids.splines import Centring, Fit, InvoluteJoint, SplineBore, StraightJoint
@@ -179,7 +179,7 @@ class StraightSplineTable(_SplineTable, tag="spline"):
             if self.size is None and value is None:
                 raise ParameterError(f"bore.{key}", None, "one_of_two_is_missing", other="size")
             if self.size is not None and value is not None:
-                raise ParameterError(f"bore.{key}", value, "either_key", Nearest(None), one="size", other=key)
+                raise either(f"bore.{key}", value, "size")
         if self.size is None:
             teeth, inner, outer, width = (value or 0 for value in given)
             found = StraightJoint(int(teeth), inner, outer, width, inner)

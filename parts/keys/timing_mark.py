@@ -53,14 +53,11 @@ def with_timing_mark(holes: HubHoles, table: TimingMarkTable | None, cam: DiskCa
     trials = [inside * (k + 0.5) / PLACES for k in range(PLACES)]
     found = dict(zip(trials, rooms(trials), strict=True))
     best = max(trials, key=lambda distance: found[distance])
-    if table.distance is None and found[best] < radius + least:
-        most = limit(2 * (found[best] - least), table.diameter) if found[best] > least else None
-        raise ParameterError("timing_mark.diameter", table.diameter, "no_room_for_mark", most)
     distance = best if table.distance is None else table.distance
     if room(distance) < radius + least:
         fitting = [t for t in trials if found[t] >= radius + least]
         if not fitting:
-            # nowhere else either: refused for its size
+            # nowhere: refused for its size
             most = limit(2 * (room(distance) - least), table.diameter) if room(distance) > least else None
             raise ParameterError("timing_mark.diameter", table.diameter, "no_room_for_mark", most)
         end = min(fitting, key=lambda t: abs(t - distance))

@@ -12,7 +12,7 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import kept, nearest
-from parts.keys.base import degrees, in_modules, mm
+from parts.keys.base import degrees, either, in_modules, mm
 
 if TYPE_CHECKING:
     from geometry.gears.worms.worm import Worm
@@ -108,8 +108,7 @@ def quotient_of(keys: Led) -> float:
         return given or USUAL_QUOTIENT
     wanted = keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg))
     if given is not None and not math.isclose(given, wanted, rel_tol=1e-9):
-        told = {"one": "lead_angle_deg", "other": "diameter_quotient"}
-        raise ParameterError("diameter_quotient", given, "either_key", Nearest(None), **told)
+        raise either("diameter_quotient", given, "lead_angle_deg")
     return wanted
 
 
@@ -133,8 +132,7 @@ def shift_of(keys: Shifted, quotient: float, number_of_teeth: int) -> float:
     if distance is None:
         return shift
     if shift:
-        told = {"one": "working_centre_distance", "other": "profile_shift_coefficient"}
-        raise ParameterError("profile_shift_coefficient", shift, "either_key", Nearest(None), **told)
+        raise either("profile_shift_coefficient", shift, "working_centre_distance")
     middle = (quotient + number_of_teeth) / 2
     shift = distance / keys.module - middle
     if abs(shift) > _MOST_SHIFT:
