@@ -41,7 +41,7 @@ from geometry.solids.faces import (
 )  # fmt: skip
 from geometry.solids.measured import Measured
 from geometry.solids.patch_distance import patch_distance
-from parts.solids.kernel import KernelError, edges_of, faces_of, kernel_errors, solids_of, volume_of
+from parts.solids.kernel import KernelError, edges_of, explored, faces_of, kernel_errors, solids_of, volume_of
 
 if TYPE_CHECKING:
     from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface
@@ -297,22 +297,19 @@ class _Taken(SolidBuilder):
         """A face with its loops, the outer one first; ``direct``: the kernel's normal looks where ours does."""
         from OCP.BRepTools import BRepTools
         from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
-        from OCP.TopExp import TopExp_Explorer
         from OCP.TopoDS import TopoDS
 
         plain = TopoDS.Face_s(face.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
         turned = face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
         outer = BRepTools.OuterWire_s(plain)
         loops: list[Loop] = []
-        explorer = TopExp_Explorer(plain, TopAbs_ShapeEnum.TopAbs_WIRE)
-        while explorer.More():
-            wire = TopoDS.Wire_s(explorer.Current())
+        for found in explored(plain, TopAbs_ShapeEnum.TopAbs_WIRE):
+            wire = TopoDS.Wire_s(found)
             run = [(number(edge), ahead) for edge, ahead in _run(wire, plain)]
             kept = [(at, ahead != turned) for at, ahead in (run[::-1] if turned else run) if at is not None]
             if kept:
                 loop: Loop = np.array([[at for at, _ in kept]]), np.array([ahead for _, ahead in kept])
                 loops.insert(0 if wire.IsSame(outer) else len(loops), loop)
-            explorer.Next()
         self.faces.append(Faces(surface, tuple(loops), direct != turned))
 
     def surface(
@@ -320,7 +317,6 @@ class _Taken(SolidBuilder):
     ) -> tuple[Plane | Cylinder | Cone | Torus | Sphere | SplineSurface, bool]:
         """The surface of a face, and whether the kernel's normal looks where ours does."""
         from OCP.BRepAdaptor import BRepAdaptor_Surface
-        from OCP.GeomAbs import GeomAbs_SurfaceType as Kind
 
         told: BRepAdaptor_Surface | GeomAdaptor_Surface = BRepAdaptor_Surface(face, False)
         named, same = _named(told.GetType()), True
@@ -329,28 +325,25 @@ class _Taken(SolidBuilder):
             if known is None:
                 return self.patch(face, named, number), True
             told, same = known
-        kind = told.GetType()
-        if kind == Kind.GeomAbs_Plane:
-            axes = told.Plane().Position()
-            return Plane(self.frame(axes)), axes.Direct() == same
-        if kind == Kind.GeomAbs_Cylinder:
-            axes = told.Cylinder().Position()
-            return Cylinder(self.frame(axes), told.Cylinder().Radius()), axes.Direct() == same
-        if kind == Kind.GeomAbs_Sphere:
-            axes = told.Sphere().Position()
-            return Sphere(self.sphere_frame(face, axes), told.Sphere().Radius()), axes.Direct() == same
-        if kind == Kind.GeomAbs_Torus:
-            axes, torus = told.Torus().Position(), told.Torus()
-            if torus.MinorRadius() >= torus.MajorRadius():
+            named = _named(told.GetType())
+        found = getattr(told, named)()
+        axes = found.Position()
+        direct = axes.Direct() == same
+        if named == "Plane":
+            return Plane(self.frame(axes)), direct
+        if named == "Cylinder":
+            return Cylinder(self.frame(axes), found.Radius()), direct
+        if named == "Sphere":
+            return Sphere(self.sphere_frame(face, axes), found.Radius()), direct
+        if named == "Torus":
+            if found.MinorRadius() >= found.MajorRadius():
                 self.refuse("step_surface", "Torus")
-            return Torus(self.frame(axes), torus.MajorRadius(), torus.MinorRadius()), axes.Direct() == same
-        axes, cone = told.Cone().Position(), told.Cone()
-        slant, radius = abs(cone.SemiAngle()), cone.RefRadius()
+            return Torus(self.frame(axes), found.MajorRadius(), found.MinorRadius()), direct
+        slant, radius = abs(found.SemiAngle()), found.RefRadius()
         # an apex is no place for a surface to begin
         aside = max(1.0 - radius, 0.0)
-        return Cone(
-            self.frame(axes, np.sign(cone.SemiAngle()), aside / np.tan(slant)), radius + aside, slant
-        ), axes.Direct() == same
+        frame = self.frame(axes, np.sign(found.SemiAngle()), aside / np.tan(slant))
+        return Cone(frame, radius + aside, slant), direct
 
     def patch(self, face: TopoDS_Face, kind: str, number: Callable[[TopoDS_Edge], int]) -> SplineSurface:
         """A spline surface between the four edges of a face, which get its ends as their curves."""

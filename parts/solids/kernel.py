@@ -31,7 +31,7 @@ def faces_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Face]:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
-    return (TopoDS.Face_s(face) for face in _explored(shape, TopAbs_ShapeEnum.TopAbs_FACE))
+    return (TopoDS.Face_s(face) for face in explored(shape, TopAbs_ShapeEnum.TopAbs_FACE))
 
 
 def edges_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Edge]:
@@ -39,10 +39,11 @@ def edges_of(shape: TopoDS_Shape) -> Iterator[TopoDS_Edge]:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
-    return (TopoDS.Edge_s(edge) for edge in _explored(shape, TopAbs_ShapeEnum.TopAbs_EDGE))
+    return (TopoDS.Edge_s(edge) for edge in explored(shape, TopAbs_ShapeEnum.TopAbs_EDGE))
 
 
-def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Shape]:
+def explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Shape]:
+    """What a shape has of a kind, one after the other."""
     from OCP.TopExp import TopExp_Explorer
 
     explorer = TopExp_Explorer(shape, kind)
@@ -83,7 +84,7 @@ def solids_of(text: str) -> list[TopoDS_Shape]:
         status = reader.ReadStream("part.step", BytesIO(text.encode("ascii")))
         if status != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.TransferRoots():
             return []
-        return list(_explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID))
+        return list(explored(reader.OneShape(), TopAbs_ShapeEnum.TopAbs_SOLID))
 
 
 def volume_of(solids: Sequence[TopoDS_Shape], exact: float, share: float) -> float:
