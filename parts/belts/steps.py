@@ -11,8 +11,7 @@ from parts.pages.page import Sheet
 
 def belt_steps(page: Sheet, belt: Belt) -> None:
     """What is known of the belt."""
-    page.add("belt_pitch", belt.pitch)
-    page.add("pitch_line_offset", belt.line_offset)
+    page.told(belt_pitch=belt.pitch, pitch_line_offset=belt.line_offset)
 
 
 def circle_steps(page: Sheet, pulley: Pulley, gear: int = 0) -> None:
@@ -37,7 +36,5 @@ def groove_steps(page: Sheet, pulley: Pulley) -> None:
     else:
         width = groove.width_of(pulley.outer_radius, walls)
         page.add("groove_floor_width" if groove.at_floor else "groove_corner_width", width)
-        page.add("groove_angle_deg", math.degrees(2 * groove.half_angle))
-        page.add("greatest_root_radius", groove.root_radius + walls)
-    page.add("groove_tip_radius", groove.tip_radius)
-    page.add("land_width", pulley.land)
+        page.told(groove_angle_deg=math.degrees(2 * groove.half_angle), greatest_root_radius=groove.root_radius + walls)
+    page.told(groove_tip_radius=groove.tip_radius, land_width=pulley.land)

@@ -36,8 +36,7 @@ def sheet(keys: SplineKeys) -> Sheet:
     page.add("spline_chamfer", joint.chamfer)
     page.section("Sizes")
     shaft = joint.shaft()
-    page.add("spline_root_diameter", 2 * shaft.inner)
-    page.add("spline_rounding", joint.rounding)
+    page.told(spline_root_diameter=2 * shaft.inner, spline_rounding=joint.rounding)
     if joint.standard:
         page.add("spline_symmetry", side_symmetry(joint.width), source=joint.standard)
     height = (joint.outer - joint.inner) / 2 - 2 * joint.chamfer

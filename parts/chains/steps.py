@@ -20,8 +20,7 @@ from parts.pages.page import Sheet
 
 def chain_steps(page: Sheet, chain: Chain) -> None:
     """What is known of the chain."""
-    page.add("chain_pitch", chain.pitch)
-    page.add("chain_roller_diameter", chain.roller_diameter)
+    page.told(chain_pitch=chain.pitch, chain_roller_diameter=chain.roller_diameter)
     for name in ("inner_width", "plate_height", "transverse_pitch"):
         if value := getattr(chain, name):
             page.add(f"chain_{name}", value)

@@ -173,9 +173,7 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
         page.add(phases.term(name), phases.size(phase), key="phi")
         page.add("swing_of_phase_deg" if phases.swings else "lift_of_phase", phases.stroke(h))
         speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
-        page.add("velocity_coefficient", speed)
-        page.add("acceleration_coefficient", bend)
-        page.add("jerk_coefficient", jerk)
+        page.told(velocity_coefficient=speed, acceleration_coefficient=bend, jerk_coefficient=jerk)
         if phases.swings:
             continue
         terms = ("peak_slope", "peak_bend") if phases.slides else ("peak_velocity", "peak_acceleration")

@@ -44,8 +44,7 @@ def sheet(keys: DiscKeys) -> Sheet:
     if keys.output_holes is not None:
         output = keys.output_holes
         page.section("Output holes")
-        page.add("output_pin_diameter", output.pin_diameter)
-        page.add("output_hole_clearance", output.clearance)
+        page.told(output_pin_diameter=output.pin_diameter, output_hole_clearance=output.clearance)
         hole = output.pin_diameter + 2 * keys.eccentricity + output.clearance
         page.add("output_hole_diameter", hole, "{d_o} + 2 * {e} + {c_o}")
     page.tables.append(_table(disc, keys.step))
@@ -100,8 +99,7 @@ def _pushing(page: Sheet, disc: CycloidalDisc) -> None:
     page.add("greatest_force_arm", disc.pitch_radius, "{r_1}")
     page.add("greatest_arm_angle_deg", math.degrees(math.acos(disc.shortening)), "arccos({lam})")
     least, at = _least(lambda psi: pressure_angles(disc, psi), 0.0, math.pi)
-    page.add("least_disc_pressure_angle_deg", math.degrees(least))
-    page.add("best_pin_angle_deg", math.degrees(at))
+    page.told(least_disc_pressure_angle_deg=math.degrees(least), best_pin_angle_deg=math.degrees(at))
 
 
 def contacts(disc: CycloidalDisc, psi: Real) -> Complex:

@@ -80,8 +80,7 @@ def _limits(page: Sheet, gear: LanternGear) -> None:
 def _contact(page: Sheet, gear: LanternGear) -> None:
     found = limits_of(gear)
     page.section("Contact")
-    page.add("flank_start_angle_deg", math.degrees(found.start))
-    page.add("flank_end_angle_deg", math.degrees(found.tip))
+    page.told(flank_start_angle_deg=math.degrees(found.start), flank_end_angle_deg=math.degrees(found.tip))
     page.add("lantern_contact_ratio", gear.contact_ratio, "({u_2} - {u_1}) / {tau}")
     # the pin has turned u z / N; its chord to the pole leans half as much on the tangent of both pitch circles
     turned = found.tip * gear.number_of_teeth / gear.number_of_pins

@@ -77,8 +77,7 @@ def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
     if cam.is_groove:
         page.add("clearance", keys.clearance)
         page.add("groove_width", 2 * cam.radius, "{d} + {c_r}")
-    page.add("barrel_length", body.length)
-    page.add("roller_height", float(cam.place(0.0, 0)[0].imag))
+    page.told(barrel_length=body.length, roller_height=float(cam.place(0.0, 0)[0].imag))
     for kind, name, called in (
         (PhaseKind.RISE, "rise", N_("greatest pressure angle {where}, rise")),
         (PhaseKind.RETURN, "return", N_("greatest pressure angle {where}, return")),

@@ -101,8 +101,7 @@ def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
     drive, guide = linkage.drive, linkage.guide
     if isinstance(drive, RockerDrive):
         point(page, ("driven_pivot_x", "driven_pivot_y"), drive.pivot)
-        page.add("driven_length", drive.length)
-        page.add("driven_start_angle_deg", math.degrees(drive.start_angle))
+        page.told(driven_length=drive.length, driven_start_angle_deg=math.degrees(drive.start_angle))
     elif isinstance(drive, SliderDrive) and isinstance(keys.driven, DrivenSlider):
         point(page, ("driven_start_x", "driven_start_y"), drive.start)
         page.add("driven_direction_deg", keys.driven.direction_deg)
@@ -123,10 +122,8 @@ def _sizes(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
     page.section("Sizes")
     if keys.least_curvature_radius:
         page.add("curvature_reserve", keys.least_curvature_radius)
-    page.add("least_cam_radius", inner_radius(cam))
-    page.add("greatest_cam_radius", cam.greatest(lambda t: np.abs(cam.contact(t))))
-    for name, angle in pressure_angles(cam).items():
-        page.add(name, angle)
+    page.told(least_cam_radius=inner_radius(cam), greatest_cam_radius=cam.greatest(lambda t: np.abs(cam.contact(t))))
+    page.told(**pressure_angles(cam))
     if cam.radius:
         page.add("contact_pressure_angle_deg", math.degrees(cam.greatest(cam.contact_pressure_angle)))
     page.add("least_curvature_radius", least_convex_radius(cam).value)
@@ -136,9 +133,7 @@ def _sizes(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
         page.add("greatest_sliding_velocity", cam.greatest(cam.sliding_velocity))
     if str(cam.kind) in ("flat", "mushroom"):
         low, high = cam.face_reach()
-        page.add("face_from", low)
-        page.add("face_to", high)
-        page.add("least_plate_diameter", cam.least_plate_diameter())
+        page.told(face_from=low, face_to=high, least_plate_diameter=cam.least_plate_diameter())
 
 
 def linkage_table(cam: LinkageCam, step: float) -> Table:

@@ -233,8 +233,7 @@ def contour_section(page: Sheet, shape: Contour, cam: DiskCam) -> None:
     if shape.curvature:
         page.add("flank_radius", 1 / shape.curvature)
     change = shape.nose_normal if cam.is_flat else shape.change(cam.radius)
-    page.add("nose_change_deg", math.degrees(change))
-    page.add("nose_change_lift", float(cam.motion.value(change)))
+    page.told(nose_change_deg=math.degrees(change), nose_change_lift=float(cam.motion.value(change)))
 
 
 def roller_section(page: Sheet, cam: DiskCam, least_curvature_radius: float) -> None:
@@ -256,8 +255,7 @@ def reached(page: Sheet, cam: DiskCam) -> None:
         page.add("initial_height", cam.mount.start_height)
     if isinstance(cam.mount, Oscillating):
         page.add("start_angle_deg", math.degrees(cam.mount.start_angle))
-    for name, angle in pressure_angles(cam).items():
-        page.add(name, angle)
+    page.told(**pressure_angles(cam))
     if not cam.is_flat and cam.motion.moving_pieces(PhaseKind.RISE):
         steep = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
         page.add("transmission_angle_reached_deg", 90 - steep, "", LESSON_5)
@@ -283,5 +281,4 @@ def rocker_sizes(page: Sheet, keys: Any, cam: DiskCam, mount: Oscillating) -> No
             page.add(name, oscillating_prime_radius(low, mount.centre_distance, arm), "", LESSON_4)
     with suppress(ConvergenceError):
         best = oscillating_axis(cam.motion, arm, mount.sense, steep, steep)
-        page.add("best_centre_distance", best.centre_distance)
-        page.add("smallest_prime_circle_radius", best.prime_radius)
+        page.told(best_centre_distance=best.centre_distance, smallest_prime_circle_radius=best.prime_radius)

@@ -68,8 +68,7 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
         rocker_sizes(page, keys, cam, cam.mount)
     page.add("least_base_circle_radius", cam.base_radius)
     reached(page, cam)
-    page.add("least_curvature_radius", least_convex_radius(cam).value)
-    page.add("least_hollow_radius", least_hollow_radius(cam).value)
+    page.told(least_curvature_radius=least_convex_radius(cam).value, least_hollow_radius=least_hollow_radius(cam).value)
     page.section("Groove")
     page.add("clearance", disk.clearance)
     page.add("groove_width", 2 * cam.radius + disk.clearance, "2 * {r} + {c_r}")
@@ -77,5 +76,4 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
     farthest = disk.outermost - cam.radius - disk.clearance
     page.add("greatest_path_radius", farthest)
     page.add("outer_wall_radius", disk.outermost, "{R_2} + {r} + {c_r}")
-    page.add("groove_depth", disk.depth)
-    page.add("outer_diameter", 2 * disk.outer_radius)
+    page.told(groove_depth=disk.depth, outer_diameter=2 * disk.outer_radius)

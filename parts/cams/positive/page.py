@@ -108,8 +108,7 @@ def _yoke(page: Sheet, frame: YokeFrame, step: float) -> None:
     page.section("Yoke")
     # the height of the face or of the roller's centre stands among the sizes already
     page.add("breadth", frame.breadth - frame.play, "2 * {s_0} + {H}" if low == 0 else "")
-    page.add("breadth_error", breadth_error(cam.motion))
-    page.add("yoke_play", frame.play)
+    page.told(breadth_error=breadth_error(cam.motion), yoke_play=frame.play)
     page.add("yoke_opening", frame.breadth, "{B} + {c_y}")
     page.add("yoke_middle", frame.middle, "{s_0} - {B} / 2")
     if cam.is_flat:

@@ -113,8 +113,7 @@ def _given(page: Sheet, pair: BevelPair) -> None:
     page.section("Given")
     first, both = pair.first, partial(_both, page, pair)
     page.both("number_of_teeth", (first.number_of_teeth, first.mate_number_of_teeth))
-    page.add("outer_module", first.module)
-    page.add("shaft_angle_deg", math.degrees(first.shaft_angle))
+    page.told(outer_module=first.module, shaft_angle_deg=math.degrees(first.shaft_angle))
     if first.is_straight:
         page.add("pressure_angle_deg", math.degrees(first.pressure_angle))
     else:

@@ -141,12 +141,10 @@ def _limits(page: Sheet, gear: FaceGear) -> None:
 
 def _face(page: Sheet, gear: FaceGear) -> None:
     page.section(N_("Face and contact"))
-    page.add("face_inner_diameter", 2 * gear.inner_radius)
-    page.add("face_outer_diameter", 2 * gear.outer_radius)
+    page.told(face_inner_diameter=2 * gear.inner_radius, face_outer_diameter=2 * gear.outer_radius)
     page.add("face_width", gear.face_width, "({D_e} - {D_i}) / 2")
     inner, outer = gear.tip_thickness([gear.inner_radius, gear.outer_radius]).tolist()
-    page.add("inner_tip_thickness", inner)
-    page.add("outer_tip_thickness", outer)
+    page.told(inner_tip_thickness=inner, outer_tip_thickness=outer)
     if not gear.more_teeth:
         middle = (gear.inner_radius + gear.outer_radius) / 2
         page.add("middle_plane", middle, "({D_i} + {D_e}) / 4")

@@ -63,12 +63,9 @@ def _given(page: Sheet, pairing: Pairing) -> None:
     """The driver's centrode."""
     one = pairing.centrode
     page.section("Centrode of the driver")
-    page.add("gear_teeth", pairing.teeth[0])
-    page.add("mate_teeth", pairing.teeth[1])
+    page.told(gear_teeth=pairing.teeth[0], mate_teeth=pairing.teeth[1])
     if isinstance(one, LobedEllipse):
-        page.add("centrode_eccentricity", one.eccentricity)
-        page.add("centrode_lobes", one.lobes)
-        page.add("centrode_parameter", one.parameter)
+        page.told(centrode_eccentricity=one.eccentricity, centrode_lobes=one.lobes, centrode_parameter=one.parameter)
         page.add("greatest_convex_eccentricity", 1.0 if one.lobes == 1 else 1 / (one.lobes**2 - 1),
                  "" if one.lobes == 1 else "1 / ({n_c}**2 - 1)")  # fmt: skip
         equal = pairing.teeth[0] == pairing.teeth[1]
@@ -77,8 +74,7 @@ def _given(page: Sheet, pairing: Pairing) -> None:
     else:
         assert isinstance(one.ratio, FourierRatio)
         page.add("mean_ratio", one.ratio.mean, "{z_1} / {z_2}")
-        page.add("centrode_lobes", one.ratio.lobes)
-        page.add("noncircular_distance", pairing.centre_distance)
+        page.told(centrode_lobes=one.ratio.lobes, noncircular_distance=pairing.centre_distance)
         page.data["ratio_cosines"], page.data["ratio_sines"] = list(one.ratio.cosines), list(one.ratio.sines)
         page.note("i = i_m (1 + Σ (a_k cos k n φ + b_k sin k n φ)), r_1 = a i / (1 + i)")
 
@@ -88,8 +84,7 @@ def _closure(page: Sheet, gear: NoncircularGear, pairing: Pairing, pair: Centrod
     page.section("Ratio and closure")
     line = pairing.lines[0]
     least, greatest = replace(gear, line=line).radii
-    page.add("least_centrode_radius", least)
-    page.add("greatest_centrode_radius", greatest)
+    page.told(least_centrode_radius=least, greatest_centrode_radius=greatest)
     for name, key in (("least_ratio", "r_min"), ("greatest_ratio", "r_max")):
         radius = least if key == "r_min" else greatest
         formula = f"{{{key}}} / ({{a}} - {{{key}}})"
@@ -119,14 +114,12 @@ def _teeth(page: Sheet, keys: NoncircularKeys, gear: NoncircularGear) -> None:
     page.add("tip_height", gear.tip_height, "({h_a} + {x}) * {m}")
     page.add("root_depth", gear.root_depth, "({h_a} + {c} - {x}) * {m}")
     flat, sharp = gear.curvatures
-    page.add("least_centrode_bend", 1 / sharp)
-    page.add("greatest_centrode_bend", 1 / flat if flat > 1e-12 * sharp else math.inf)
+    page.told(least_centrode_bend=1 / sharp, greatest_centrode_bend=1 / flat if flat > 1e-12 * sharp else math.inf)
     page.add("equivalent_teeth", 2 / sharp / gear.module, "2 * {rho_c} / {m}")
     depth = rack.dedendum - rack.tip_radius * (1 - math.sin(rack.pressure_angle)) - gear.profile_shift_coefficient
     formula = "2 * ({h_a} + {c} - {rho_f} * (1 - sin({alpha})) - {x}) / sin({alpha})**2"
     page.add("least_equivalent_teeth", 2 * depth / math.sin(rack.pressure_angle) ** 2, formula)
-    page.add("undercut_sides", gear.outline.undercut)
-    page.add("least_tip_land", gear.outline.tip_thickness)
+    page.told(undercut_sides=gear.outline.undercut, least_tip_land=gear.outline.tip_thickness)
 
 
 def _contact(page: Sheet, keys: NoncircularKeys, gear: NoncircularGear) -> None:

@@ -86,8 +86,7 @@ def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     best = rack_measurement.pin_touching_at(rack, 0.0, helix)
     low, high = rack_measurement.pin_limits(rack, helix)
     page.add("pin_at_datum_line", best, f"{{e}}{share} / cos({{alpha_n}})", "KHK")
-    page.add("least_rack_pin", low)
-    page.add("greatest_rack_pin", high)
+    page.told(least_rack_pin=low, greatest_rack_pin=high)
     pin = best if keys.pin_diameter is None else keys.pin_diameter
     found = rack_measurement.over_pin(rack, pin, helix)
     page.add("pin_diameter", pin)

@@ -68,8 +68,7 @@ def section_data(page: Sheet, normal_module: float, normal_pressure_angle: float
     """
     alpha = math.degrees(normal_pressure_angle)
     if not helix:
-        page.add("module", normal_module)
-        page.add("pressure_angle_deg", alpha)
+        page.told(module=normal_module, pressure_angle_deg=alpha)
         page.name("m_n", "m")
         page.name("alpha_n", "alpha")
         return

@@ -230,14 +230,10 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
 
 def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:
     page.section("Given")
-    page.add("axial_module", keys.module)
-    page.add("diameter_quotient", quotient)
-    page.add("number_of_starts", keys.number_of_starts)
+    page.told(axial_module=keys.module, diameter_quotient=quotient, number_of_starts=keys.number_of_starts)
     if keys.number_of_teeth is not None:
-        page.add("worm_wheel_teeth", keys.number_of_teeth)
-        page.add("profile_shift_coefficient", keys.profile_shift_coefficient)
-    page.add("worm_form", keys.form)
-    page.add("worm_pressure_angle_deg", keys.pressure_angle_deg)
+        page.told(worm_wheel_teeth=keys.number_of_teeth, profile_shift_coefficient=keys.profile_shift_coefficient)
+    page.told(worm_form=keys.form, worm_pressure_angle_deg=keys.pressure_angle_deg)
     if keys.form == "ZK1":
         page.add("grinding_wheel_diameter", keys.grinding_wheel_diameter)
     page.add("addendum_coefficient", keys.addendum_coefficient)
@@ -313,8 +309,7 @@ def _measures(page: Sheet, thread: Thread, keys: WormKeys) -> None:
     """What is read on the thread: its chord, and over balls or wires."""
     chord, usual = reference_chord(thread), BALL * thread.worm.module
     page.section("Measured")
-    page.add("thread_chord", chord.thickness)
-    page.add("thread_chord_height", chord.height)
+    page.told(thread_chord=chord.thickness, thread_chord_height=chord.height)
     ball = usual if keys.ball_diameter is None else keys.ball_diameter
     if (size := over_balls(thread, ball)) is not None:
         usual_told = ("", "") if keys.ball_diameter is not None else (f"{BALL} * {{m}}", _GOST)
@@ -378,8 +373,7 @@ def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisError
     page.section("Axes off their places")
     for key in _ERRORS:
         page.add(key, getattr(keys, key))
-    page.add("least_flank_gap", found.worst.gap)
-    page.add("contact_verdict", found.verdict.value.upper())
+    page.told(least_flank_gap=found.worst.gap, contact_verdict=found.verdict.value.upper())
 
 
 def _speeds(page: Sheet, drive: WormDrive, speed_rpm: float) -> None:

@@ -54,8 +54,7 @@ def show_given(page: Sheet, keys: ChoiceKeys, pair: AnyShiftPair, rack: BasicRac
         page.both("addendum_coefficient", (rack.addendum, pair.ring_addendum))
     else:
         page.add("addendum_coefficient", rack.addendum)
-    page.add("tip_clearance_coefficient", rack.tip_clearance)
-    page.add("tip_radius_coefficient", rack.tip_radius)
+    page.told(tip_clearance_coefficient=rack.tip_clearance, tip_radius_coefficient=rack.tip_radius)
     square = "sin({alpha})**2"
     if pair.helix_angle:
         face_steps(page, keys.face)

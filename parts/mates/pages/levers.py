@@ -478,8 +478,7 @@ class _Page:
         low, high = np.mod(found, 2 * math.pi)[:: 1 if after[turns[0]] > 0 else -1]
         forward = float((high - low) % (2 * math.pi))
         backward = 2 * math.pi - forward
-        page.add("rear_dead_point_deg", math.degrees(low))
-        page.add("front_dead_point_deg", math.degrees(high))
+        page.told(rear_dead_point_deg=math.degrees(low), front_dead_point_deg=math.degrees(high))
         page.add("forward_angle_deg", math.degrees(forward), "{phi_h} - {phi_l}" + (" + 2 * pi" if high < low else ""))
         page.add("backward_angle_deg", math.degrees(backward), "2 * pi - {phi_f}")
         ratio = "{phi_f} / {phi_b}" if forward > backward else "{phi_b} / {phi_f}"
@@ -529,8 +528,7 @@ class _Page:
         page.add("resisting_work", float(resistance * gone[-1]))
         page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
         if bodies:
-            page.add("least_reduced_inertia", float(inertia.min()))
-            page.add("greatest_reduced_inertia", float(inertia.max()))
+            page.told(least_reduced_inertia=float(inertia.min()), greatest_reduced_inertia=float(inertia.max()))
         page.add("flywheel_energy", wheel.swing)
         page.add("flywheel_inertia", wheel.moment, "{dT} / ({omega_1}**2 * {delta})", _MERTSALOV)
         if weighs(keys) and keys.gravity:

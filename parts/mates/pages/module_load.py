@@ -182,14 +182,12 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
     # the Jacobian of drive I is longest at beta = 0, that of drive II is as long everywhere
     first, second = table.arms[0] + (table.ratio - 1) * table.arms[1], table.ratio * table.arms[1]
     page.section("Load on the platform")
-    page.add("worm_torque", keys.worm_torque)
-    page.add("diameter_quotient", keys.diameter_quotient)
+    page.told(worm_torque=keys.worm_torque, diameter_quotient=keys.diameter_quotient)
     page.add("self_locking_friction", math.cos(keys.drives[0].worm.pressure_angle) / keys.diameter_quotient,
              "cos(20 * pi / 180) / {q}")  # fmt: skip
     losses = ""
     if keys.friction_coefficient:
-        page.add("friction_coefficient", keys.friction_coefficient)
-        page.add("worm_efficiency", worth)
+        page.told(friction_coefficient=keys.friction_coefficient, worm_efficiency=worth)
         losses = " * {eta}"
     for name, torque in zip(DRIVES, held, strict=True):
         formula = f"{{T1}} * {{u_{name}}}{losses}"
@@ -202,9 +200,7 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
     load = min(most) if keys.load is None else keys.load
     if given is not None:
         load = given[0]
-    page.add("load", load)
-    page.add("axial_load", keys.force_z)
-    page.add("load_moment", keys.moment)
+    page.told(load=load, axial_load=keys.force_z, load_moment=keys.moment)
     # wheels turn the platform by 1 + r8 / r6 of disk 3's turn against disk 2
     turned = keys.table.platform_turn(table.ratio, keys.orientation_teeth) if keys.orientation == "thesis" else 0.0
     more = abs(keys.moment) * float(turned)

@@ -307,8 +307,7 @@ class _Page:
         page.add("number_of_satellites", keys.satellites)
         if (apart := least_angle(places)) is None:
             return
-        page.add("least_satellite_angle_deg", 360 * float(apart))
-        page.add("rim_tip_diameter", float(one.rim_reach))
+        page.told(least_satellite_angle_deg=360 * float(apart), rim_tip_diameter=float(one.rim_reach))
         chord = float(2 * one.distances[0] * sine_of(apart))
         page.add("neighbour_distance", chord, "2 * {a_12} * sin({theta_s} / 2)")
         page.add("most_satellites", one.most_satellites(exact(keys.least_gap)))

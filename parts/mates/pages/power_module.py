@@ -219,9 +219,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     share = 1 + turns ** (2 / 3) if turns else 1.0
     page.add("loaded_turns", turns)
     page.add("preload", axial / (1.5 * share), f"{{F_a}} / {1.5 * share:g}", _BALLS)
-    page.add("balls", keys.balls)
-    page.add("guide_ball_diameter", keys.ball_diameter)
-    page.add("radial_factor", keys.radial_factor)
+    page.told(balls=keys.balls, guide_ball_diameter=keys.ball_diameter, radial_factor=keys.radial_factor)
     cases = [("thesis", N_("by the thesis"), gear + axial * math.tan(math.radians(20)), "{F_RZ} + {F_RC}"),
              ("right", N_("right"), gear + right, "{F_RZ} + {F_RC_right}")]  # fmt: skip
     if carried.ring_radial:

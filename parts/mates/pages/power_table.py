@@ -94,8 +94,7 @@ def sheet(keys: PowerTableKeys) -> Sheet:
 def given(page: Sheet, keys: TwoDiskKeys) -> None:
     """The mechanism's own sizes."""
     page.section("Given")
-    page.add("first_arm", keys.lengths[0])
-    page.add("second_arm", keys.lengths[1])
+    page.told(first_arm=keys.lengths[0], second_arm=keys.lengths[1])
     page.add("number_of_teeth", keys.pair_teeth[0], symbol="z_11")
     page.add("number_of_teeth", keys.pair_teeth[1], symbol="z_12")
     page.add("pair_ratio", keys.table.ratio, "{z_12} / {z_11}", _THESIS)
@@ -173,8 +172,7 @@ def _heads() -> tuple[tuple[str, str], ...]:
 def _steps(page: Sheet, keys: PowerTableKeys, point: complex) -> None:
     table = keys.table
     page.section("Point")
-    page.add("point_x", point.real)
-    page.add("point_y", point.imag)
+    page.told(point_x=point.real, point_y=point.imag)
     far = abs(point)
     page.add("point_distance", far, "sqrt({x}**2 + {y}**2)")
     chi = math.degrees(math.atan2(point.real, point.imag))
@@ -215,8 +213,7 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
         raise (refusal.told_of("path", refusal.value, None) if refusal.name == _PLACES else refusal) from refusal
     given(page, keys)
     page.section("Path")
-    page.add("path_length", float(rows.way[-1]))
-    page.add("path_error", rows.error)
+    page.told(path_length=float(rows.way[-1]), path_error=rows.error)
     found = zip(rows.way, *_columns(keys, table, rows.place, rows.delta, rows.beta), strict=True)
     joints = tuple((_second(table, rows.delta[k]), complex(rows.place[k])) for k in (0, -1))
     page.picture = replace(scheme(table.arms, table.ratio, joints), path=_points_of(pieces))

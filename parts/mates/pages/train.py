@@ -250,9 +250,7 @@ class _Page:
         """(2.1) with n, p5, p4 as the sources count them, and the exact rank."""
         page = self.page
         page.section("2. Degree of freedom")
-        page.add("moving_links", found.links)
-        page.add("lower_pairs", found.lower_pairs)
-        page.add("higher_pairs", found.higher_pairs)
+        page.told(moving_links=found.links, lower_pairs=found.lower_pairs, higher_pairs=found.higher_pairs)
         formula = "3 * {n} - 2 * {p_5} - {p_4}"
         page.add("degree_of_freedom", found.chebyshev, formula, "practicum (2.1)")
         if found.redundant or found.degrees != found.chebyshev:
