@@ -109,7 +109,8 @@ def board_jobs(asked: Request, layouts: dict[object, list[Laid]]) -> list[BoardJ
         own = replace(asked, export=with_keys(export, kerf=board.kerf), where=place)
         wanted = [p for p in parts_of_board(board, parts, source, place) if p in asked.wanted]
         counts = pieces_of(board, wanted, asked.scene.instances, source, place)
-        jobs = {p: Job(parts[p], own.export, own.section(parts[p], board.gap), "", asked.where) for p in counts}
+        lying = replace(own, export=with_keys(own.export, parts=[*counts]))
+        jobs = {p: Job(parts[p], own.export, lying.section(parts[p], board.gap), "", asked.where) for p in counts}
         key = (name, tuple(counts), export.tolerance)
         if key not in layouts:
             layouts[key] = _laid_out(board, jobs, counts, source, place)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from exporters.production.jobs import Job
-from geometry.base.errors import Cure, GeometryError, OffsetError, ParameterError
+from geometry.base.errors import Cure, GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
@@ -64,9 +64,9 @@ class Request(Record):
             offset = export.kerf / 2 if export.kerf else export.offset
             if not (export.kind.is_solid or is_flat(part)):
                 raise self.refused("parts", part.id, "no_flat_outline")
-            return part.cut(offset, gap) if export.kind.form is Form.ARCS else part.section(offset)
+            return self._moved(part, offset, gap)
         except OffsetError as error:
-            key, given, cure = "offset", export.offset, error.nearest
+            key, given, cure = "offset", export.offset, self._survived(error.nearest, gap)
             if export.kerf:
                 key, given, cure = "kerf", export.kerf, cure and cure.scaled(2)
             why = filled(reason(error.code))
@@ -75,6 +75,25 @@ class Request(Record):
             raise placed(self.source, f"parts.{part.id}", error) from error
         except GeometryError as error:
             raise SceneError(self.source, f"parts.{part.id}", None, "no_outline", None, why=str(error)) from error
+
+    def _moved(self, part: Part, offset: float, gap: float | None) -> OffsetRegion:
+        return part.cut(offset, gap) if self.export.kind.form is Form.ARCS else part.section(offset)
+
+    def _survived(self, found: Nearest | None, gap: float | None) -> Nearest | None:
+        """An offset that one part survives, or the nearest one that all do."""
+        for part in map(self.parts.__getitem__, self.wanted):
+            if found is None or not isinstance(found.value, float):
+                return found
+            if not (self.export.kind.is_solid or is_flat(part)):
+                continue
+            try:
+                self._moved(part, found.value, gap)
+            except OffsetError as again:
+                found = again.nearest
+            except GeometryError:
+                # what is wrong with it is told once the offset is right
+                continue
+        return found
 
     def job(self, part: Part, path: str = "") -> Job:
         """A part in a file of its own, or one of several in theirs.

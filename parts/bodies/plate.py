@@ -168,8 +168,9 @@ def _check_grid(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) 
     """
     table, place = keys.holes[number - 1], f"holes[{number}]"
     if table.count > _MOST_HOLES:
-        most = limit(_MOST_HOLES // table.columns, table.rows)
-        raise ParameterError(f"{place}.rows", table.rows, "grid_of_too_many_holes", most, most=_MOST_HOLES)
+        fewer, more = sorted(("columns", "rows"), key=lambda many: int(getattr(table, many)))
+        cure = partial(_most_holes, keys, number, holds, more, _MOST_HOLES // getattr(table, fewer))
+        raise ParameterError(f"{place}.{more}", getattr(table, more), "grid_of_too_many_holes", cure, most=_MOST_HOLES)
     least = table.least_pitch
     pitches = {"pitch": (table.pitch, "columns"), "row_pitch": (table.row_pitch, "rows")}
     for (key, (pitch, many)), step in zip(pitches.items(), table.steps, strict=True):
@@ -187,8 +188,16 @@ def _check_grid(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) 
             raise ParameterError(f"{place}.pitch", None, "grid_needs_pitch", count=count)
         if step < least:
             typed = key if pitch is not None or table.pitch is None else "pitch"
-            apart = Nearest(least, "at_least") if holds(_with_hole(keys, number, typed, least)) else None
-            raise ParameterError(f"{place}.{typed}", step, "grid_holes_meet", apart)
+            if holds(_with_hole(keys, number, typed, least)):
+                raise ParameterError(f"{place}.{typed}", step, "grid_holes_meet", Nearest(least, "at_least"))
+            # no pitch is wide enough within the edges
+            smaller = partial(_works, keys, number, holds, "diameter")
+            most = min(s for s, n in zip(table.steps, (table.columns, table.rows), strict=True) if n > 1)
+            most -= 3 * LEAST_LENGTH
+            if most <= LEAST_LENGTH or not smaller(LEAST_LENGTH):
+                raise ParameterError(f"{place}.{typed}", step, "grid_holes_meet")
+            most = most if smaller(most) else last_that_holds(smaller, most, LEAST_LENGTH, steps=30)
+            raise ParameterError.beyond(f"{place}.diameter", table.diameter, "grid_holes_meet", most, digits=6)
 
 
 def _holds(edges: tuple[Edge, ...], own: Sequence[tuple[str, complex, float]], keys: FlatKeys) -> bool:
@@ -201,22 +210,32 @@ def _holds(edges: tuple[Edge, ...], own: Sequence[tuple[str, complex, float]], k
     return True
 
 
+def _works(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool], key: str, value: float) -> bool:
+    """Whether a table of holes has room with another value of a key."""
+    return holds(_with_hole(keys, number, key, value))
+
+
+def _most_holes(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool], key: str, most: int) -> Nearest | None:
+    """So many columns, or rows, have room, of at most so many."""
+    works = partial(_works, keys, number, holds, key)
+    found = bisect_left(range(1, most + 1), True, key=lambda n: not works(n))
+    return Nearest(found, "at_most") if found else None
+
+
 def _grid_outside(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) -> ParameterError:
     """The refusal of a grid that does not lie inside as a whole: by the first of its keys that alone can cure it."""
     table, place = keys.holes[number - 1], f"holes[{number}]"
-
-    def works(key: str, value: float) -> bool:
-        return holds(_with_hole(keys, number, key, value))
-
+    works = partial(_works, keys, number, holds)
     for key in ("columns", "rows"):
         given = getattr(table, key)
-        if most := bisect_left(range(1, given), True, key=lambda n: not works(key, n)):
-            return ParameterError(f"{place}.{key}", given, "grid_lies_outside", Nearest(most, "at_most"))
-    # one that serves both ways may cure what neither number does
+        if (most := _most_holes(keys, number, holds, key, given - 1)) is not None:
+            return ParameterError(f"{place}.{key}", given, "grid_lies_outside", most)
+    # one that serves both ways may cure what neither number does, and one of its own what leaves no second row
     least = table.least_pitch
-    if table.pitch is not None and works("pitch", least):
-        found = limit(last_that_holds(partial(works, "pitch"), table.pitch, least, steps=30), table.pitch, digits=6)
-        return ParameterError(f"{place}.pitch", table.pitch, "grid_lies_outside", found)
+    for key, step in (("pitch", table.pitch), ("row_pitch", table.row_pitch)):
+        if step is not None and works(key, least):
+            found = limit(last_that_holds(partial(works, key), step, least, steps=30), step, digits=6)
+            return ParameterError(f"{place}.{key}", step, "grid_lies_outside", found)
     return ParameterError(f"{place}.at", [*(table.at or ())], "grid_lies_outside")
 
 

@@ -492,9 +492,15 @@ def test_a_grid_of_holes_is_refused_by_the_key_that_cures_it() -> None:
     check_offer(corner, place("pitch"), 50.0, "grid_lies_outside", 18.5 / 2, "at_most")
     large = scene(at=[-20.0, -10.0], columns=2, rows=2, diameter=12.0)
     check_offer(large, place("pitch"), 10.0, "grid_holes_meet", 12.0 + 2e-6, "at_least")
+    # no pitch is wide enough in the plate: before, it was blamed all the same
+    check_offer(scene(diameter=15.0), place("diameter"), 15.0, "grid_holes_meet", 10 - 3e-6, "at_most")
+    # before: `at`, which no place cures, and the three rows
+    check_offer(scene(rows=2, row_pitch=90.0), place("row_pitch"), 90.0, "grid_lies_outside", 33.0, "at_most")
+    check_refused(scene(columns=1000), place("columns"), 1000, "grid_of_too_many_holes", 6)
+    check_refused(scene(rows=500), place("rows"), 500, "grid_of_too_many_holes", 4)
     for wrong, key, code in (
         (scene(pitch=None), "pitch", "grid_needs_pitch"),
-        (scene(columns=40, rows=30), "rows", "grid_of_too_many_holes"),
+        (scene(columns=40, rows=30), "columns", "grid_of_too_many_holes"),
         (scene(columns=1, rows=1), "pitch", "only_of_a_grid"),
         (scene(rows=1, row_pitch=5.0), "row_pitch", "only_of_a_grid"),
         (scene(at=[-40.0, 0.0]), "at", "grid_lies_outside"),

@@ -111,6 +111,34 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
 # fmt: on
 
 
+def test_an_offered_kerf_is_one_that_all_parts_survive() -> None:
+    """Before: that of the first part that did not survive its own."""
+    gear = {"kind": "spur_gear", "module": 2.0, "face_width": 3.0}
+    parts = {key: gear | {"number_of_teeth": z} for key, z in (("a", 12), ("b", 16))}
+    board = {"width": 200.0, "height": 100.0, "thickness": 3.0}
+    for place, kerf, more in (
+        ("boards.w.kerf", 10.0, {"boards": {"w": board}, "exports": [{"format": "svg", "purpose": "board"}]}),
+        ("exports[1].kerf", 9.9, {"exports": [{"format": "dxf"}]}),
+    ):
+
+        def planned(value: float, more: dict[str, Any] = more) -> None:
+            owner = "boards" if "boards" in more else "exports"
+            own = {"w": board | {"kerf": value}} if owner == "boards" else [{"format": "dxf", "kerf": value}]
+            raw = {"parts": parts, **more, owner: own}
+            plan_build(scene_from_dict(raw, "test.toml", "test"), "test.toml", [], [])
+
+        with pytest.raises(SceneError) as caught:
+            planned(kerf)
+        found = caught.value.nearest
+        assert caught.value.key == place
+        assert found is not None
+        assert isinstance(found.value, float)
+        assert found.side == "at_most"
+        planned(found.value)
+        with pytest.raises(SceneError):
+            planned(1.001 * found.value)
+
+
 @pytest.mark.parametrize("name", WRONG_KEYS)
 def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
     part, export, key, value, remedy = WRONG_KEYS[name]
