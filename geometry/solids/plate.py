@@ -241,8 +241,8 @@ def _size(hole: PlateHole | PlateSlot) -> float:
 def _clearances(edges: Sequence[Edge], holes: Sequence[PlateHole | PlateSlot], offset: float = 0.0) -> Real:
     """How far each hole, grown by -``offset``, lies off the edge and the holes before it, mm (n,): below 0 it crosses.
 
-    Exact: distances between its middle line, a point where it is round, and theirs, less what is about these; -inf
-    where it lies outside.
+    Exact where holes are nearer than a wall, farther ones may be left out: distances between its middle line, a point
+    where it is round, and theirs, less what is about these; -inf where it lies outside.
     """
     if not holes:
         return np.zeros(0)
@@ -256,8 +256,12 @@ def _clearances(edges: Sequence[Edge], holes: Sequence[PlateHole | PlateSlot], o
     polygon = _polygon(outer, min(max(_ARC_SAMPLES, fine), _MOST_SAMPLES))
     inside = np.array([_winding(complex(place), polygon) == 1 for place in start])
     off_edge = np.min([_off_edge(edge, start, end) for edge in edges], axis=0) - radius
-    between = _off_line(start, end, start[:, None], end[:, None]) - radius - radius[:, None]
-    before = np.where(np.tri(len(holes), k=-1, dtype=bool), between, np.inf).min(axis=1)
+    # only those whose boxes meet may lie nearer to each other than a wall
+    corners = np.sort(np.array([[start.real, end.real], [start.imag, end.imag]]), axis=1)
+    low, high = corners[0] + 1j * corners[1] + np.array([[-1 - 1j], [1 + 1j]]) * (radius + _LEAST_WALL)
+    one, two = np.nonzero(np.tril(boxes_meet(low, high, low, high), -1))
+    before = np.full(len(holes), np.inf)
+    np.minimum.at(before, one, _off_line(start[one], end[one], start[two], end[two]) - radius[one] - radius[two])
     return np.where(inside, np.minimum(off_edge, before), -np.inf)
 
 

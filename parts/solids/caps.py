@@ -111,11 +111,24 @@ def library_triangles(points: Complex, rings: list[Triangles]) -> Triangles:
     # chords that meet within a few roundings are one to the library
     epsilon = 1e-14 * float(np.max(np.abs(points)))
     polygons = [np.stack([points[r].real, points[r].imag], axis=1) for r in rings]
-    triangles: Triangles = np.concatenate(rings)[manifold3d.triangulate(polygons, epsilon).astype(np.int64)]
+    numbers = np.concatenate(rings)
+    triangles: Triangles = numbers[manifold3d.triangulate(polygons, epsilon).astype(np.int64)]
     doubled = _cross(points, triangles)
     if not (np.all(doubled >= 0) and np.isclose(0.5 * doubled.sum(), sum(_area(points[r]) for r in rings), rtol=1e-9)):
         raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
-    return triangles
+    # corners in one line, those of holes in rows, leave triangles without area
+    return triangles if np.all(doubled > 0) else _delaunay(points, numbers, polygons)
+
+
+def _delaunay(points: Complex, numbers: Triangles, polygons: list[Real]) -> Triangles:
+    """The constrained Delaunay triangles of a polygon with holes, by the library of planes."""
+    import shapely
+
+    found = shapely.constrained_delaunay_triangles(shapely.Polygon(polygons[0], polygons[1:]))
+    x, y = shapely.get_coordinates(found).reshape(-1, 4, 2)[:, :3].transpose(2, 0, 1)
+    order = numbers[np.argsort(points[numbers])]
+    triangles = order[np.searchsorted(points[order], x + 1j * y)]
+    return np.where(_cross(points, triangles)[:, None] > 0, triangles, triangles[:, ::-1])
 
 
 def is_round(contour: Contour) -> bool:

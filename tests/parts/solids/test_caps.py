@@ -56,6 +56,11 @@ REGIONS: dict[str, tuple[Contour, tuple[Contour, ...]]] = {
     "bored in step": (SHARP, (polygon(4, 4.0, np.pi / 4),)),
     "off its middle": (WHEEL, (polygon(8, 1.5, 0.2, 3 + 1j),)),
     "windows": (WHEEL, tuple(polygon(6, 2.0, 0.1, 5 * 1j**k) for k in range(4))),
+    # corners of many holes in one line
+    "holes in rows": (
+        contour(100 * np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])),
+        tuple(polygon(4, 2.0, 0.0, complex(x, y)) for x in range(-20, 21, 10) for y in range(-20, 21, 10)),
+    ),
     # teeth that are no ladders: they hook over the land
     "hooked": (HOOKED, (polygon(6, 3.0),)),
     # cuts the chord between the roots of a tooth
