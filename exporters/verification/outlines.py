@@ -61,13 +61,12 @@ def verify_loops(
     count = {"contours": float(len(loops))}
     if failures := _count_failures(loops, profiles):
         return Verdict(count, tuple(failures))
-    order = [loop.layer.upper() for loop in loops if loop.layer.upper() in _ORDER]
-    later = next((b for a, b in pairwise(order) if _ORDER.index(b) < _ORDER.index(a)), "")
+    cut = [loop.layer.upper() for loop in loops if loop.layer.upper() in _ORDER]
+    later = next((b for a, b in pairwise(cut) if _ORDER.index(b) < _ORDER.index(a)), "")
     failures = unless(not later, "a contour on {later} comes after one that lets it fall", later=later)
     worst, shortest = 0.0, float("inf")
-    unmatched = list(loops)
-    for profile, layer in zip(profiles, layers, strict=True):
-        loop = unmatched.pop(_nearest([x.vertices for x in unmatched], profile))
+    order = _matched([x.vertices for x in loops], profiles)
+    for loop, profile, layer in zip((loops[i] for i in order), profiles, layers, strict=True):
         right, told = loop.layer.upper() in ("", layer), N_("a contour stands on {layer} instead of {wanted}")
         failures += unless(right, told, layer=loop.layer, wanted=layer)
         deviation, found = _check_loop(loop, profile, declared, known_simple)
@@ -108,11 +107,10 @@ def verify_samples(
     count = {"contours": float(len(loops))}
     if failures := _count_failures(loops, profiles):
         return Verdict(count, tuple(failures))
-    worst, left = 0.0, list(loops)
+    worst = 0.0
     found = list(areas if areas is not None else (signed_area(x, np.zeros(len(x))) for x in loops))
-    for profile in profiles:
-        index = _nearest(left, profile)
-        loop, area, exact = left.pop(index), abs(found.pop(index)), abs(profile_area(profile))
+    for index, profile in zip(_matched(loops, profiles), profiles, strict=True):
+        loop, area, exact = loops[index], abs(found[index]), abs(profile_area(profile))
         worst = max(worst, _samples_deviation(loop, profile, declared))
         failures += unless(is_simple(loop), "a contour crosses itself")
         told = N_("encloses {area:.6g} mm^2 instead of {exact:.6g} mm^2")
@@ -136,22 +134,26 @@ def _samples_deviation(loop: Complex, profile: Profile, declared: float) -> floa
     return float(distance_to_profile(loop, profile, trusted=declared).max())
 
 
-def _nearest(loops: Sequence[Complex], profile: Profile) -> int:
-    """Which loop stays nearest to a profile at all of its points."""
-    if len(loops) == 1:
-        return 0
-    middle, reach = profile_disc(profile)
-    rough = [x[:: max(1, len(x) // _ROUGH)] for x in loops]
-    # so far at least: most loops of a plate with many holes need no more
-    least = np.array([np.abs(x - middle).max() for x in rough]) - reach
-    best, found = np.inf, 0
-    for index in np.argsort(least, kind="stable").tolist():
-        if least[index] > best:
-            break
-        away = float(distance_to_profile(rough[index], profile, trusted=np.inf).max())
-        if away < best:
-            best, found = away, index
-    return found
+def _matched(loops: Sequence[Complex], profiles: Sequence[Profile]) -> list[int]:
+    """The loop of each profile: of those that are left the one that stays nearest to it at all of its points."""
+    rough = np.array([x[np.linspace(0, len(x), _ROUGH, endpoint=False).astype(int)] for x in loops])
+    left = np.ones(len(loops), dtype=bool)
+    order = []
+    for profile in profiles:
+        best, found = np.inf, int(np.argmax(left))
+        if left.sum() > 1:
+            middle, reach = profile_disc(profile)
+            # so far at least: most loops of a plate with many holes need no more
+            least = np.nan_to_num(np.where(left, np.abs(rough - middle).max(axis=1) - reach, np.inf), nan=np.inf)
+            while least.min() < best:
+                index = int(np.argmin(least))
+                away = float(distance_to_profile(rough[index], profile, trusted=np.inf).max())
+                if away < best:
+                    best, found = away, index
+                least[index] = np.inf
+        left[found] = False
+        order.append(found)
+    return order
 
 
 def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: bool) -> tuple[float, list[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import reduce
 from typing import Protocol
 
 import numpy as np
@@ -20,6 +21,8 @@ _GAUSS_PANELS = 4
 _COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
 # distances found at once, few enough for the cache, and samples that a point is first held against
 _CACHED, _WINDOW = 30_000, 300
+# lines and arcs that cost less by their closed forms than by samples of all
+_FEW = 4
 # near a cusp the steps only halve the error, so the thorough pass takes many
 _QUICK_STEPS, _THOROUGH_STEPS = 4, 24
 # ends so near, mm, shut a curve
@@ -98,11 +101,10 @@ def distance_to_nearest(points: Complex, profiles: Sequence[Profile], trusted: f
     near = np.zeros(points.shape, dtype=np.int64)
     if len(profiles) > 1:
         # no profile is asked of points that another's disc says to be nearer to that one
-        middles, reaches = np.array([profile_disc(p) for p in profiles]).T
-        away = np.abs(points - middles[:, None])
-        near_enough = away - reaches.real[:, None] <= (away + reaches.real[:, None]).min(axis=0)
-        for index, profile in enumerate(profiles):
-            mine = np.flatnonzero(near_enough[index])
+        discs = [profile_disc(p) for p in profiles]
+        most = reduce(np.minimum, (np.abs(points - middle) + reach for middle, reach in discs))
+        for index, (profile, (middle, reach)) in enumerate(zip(profiles, discs, strict=True)):
+            mine = np.flatnonzero(np.abs(points - middle) - reach <= most)
             quick = distance_to_profile(points[mine], profile, trusted=math.inf)
             nearer = quick < found[mine]
             found[mine[nearer]], near[mine[nearer]] = quick[nearer], index
@@ -133,8 +135,8 @@ def distance_to_chain(points: Complex, curves: Sequence[Curve], *, trusted: floa
 
 def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted: float) -> Real:
     """Quick, then thorough where it matters: there the points are turned to the periods beside theirs too."""
-    if len(curves) == len(turns) == 1 and isinstance(curves[0], Arc | Line):
-        return distance_to_plain(points, curves[0])
+    if len(turns) == 1 and len(curves) <= _FEW and all(isinstance(c, Arc | Line) for c in curves):
+        return distance_to_curves(points, curves)
     result = _quick_distance(points, curves)
     doubtful = np.flatnonzero(result > trusted)
     if doubtful.size:

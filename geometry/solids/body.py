@@ -188,9 +188,12 @@ class Body(Record, dict=True):
         leader = list(range(len(self.profiles)))
         for wall in self.walls:
             a, b = sorted((leader[self.loops[wall.lower].profile], leader[self.loops[wall.upper].profile]))
-            leader = [a if x == b else x for x in leader]
-        for first in sorted(set(leader)):
-            yield tuple(i for i, x in enumerate(leader) if x == first)
+            if a != b:
+                leader = [a if x == b else x for x in leader]
+        groups: dict[int, list[int]] = {}
+        for index, first in enumerate(leader):
+            groups.setdefault(first, []).append(index)
+        yield from map(tuple, groups.values())
 
 
 class BodyBuilder(Draft):
@@ -200,10 +203,12 @@ class BodyBuilder(Draft):
     loops: dict[Loop, int] = field(default_factory=dict)
     walls: list[Wall] = field(default_factory=list)
     caps: list[Cap] = field(default_factory=list)
+    # numbers of the profiles by what they are, not by what they equal
+    numbers: dict[int, int] = field(default_factory=dict)
 
     def loop(self, profile: Profile, z: float, turn: float = 0.0, shift: complex = 0j) -> int:
         """Index of the loop of a profile at a height, mm, turned (rad) and moved (mm)."""
-        place = next((i for i, p in enumerate(self.profiles) if p is profile), len(self.profiles))
+        place = self.numbers.setdefault(id(profile), len(self.profiles))
         if place == len(self.profiles):
             self.profiles.append(profile)
         return self.loops.setdefault(Loop(place, z, turn, shift), len(self.loops))
@@ -245,8 +250,8 @@ def opened(body: Body, top: float) -> tuple[BodyBuilder, Cap]:
         raise ValueError(f"there is no upper face at {top} mm")
     face = max(faces, key=lambda c: body.loop_profile(c.outer).reach())
     caps = [c for c in body.caps if c is not face]
-    made = BodyBuilder(list(body.profiles), {loop: i for i, loop in enumerate(body.loops)}, list(body.walls), caps)
-    return made, face
+    loops, numbers = {x: i for i, x in enumerate(body.loops)}, {id(p): i for i, p in enumerate(body.profiles)}
+    return BodyBuilder(list(body.profiles), loops, list(body.walls), caps, numbers), face
 
 
 def plate(

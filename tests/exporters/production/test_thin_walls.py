@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from exporters.formats.registry import shape_of
 from exporters.production.build import build
@@ -113,3 +114,16 @@ def test_what_is_remarked_on_a_file_goes_by_its_part_and_its_edges() -> None:
         assert [(f.value, f.limit) for f in found if f.code == "short_edges"] == [(count, LEAST_SEGMENT_MM)] * bool(
             count
         )
+
+
+def test_holes_in_rows_are_no_thin_walls(tmp_path: Path) -> None:
+    """Corners of many holes in one line: their flat triangles were taken for chords through a wall."""
+    grid = {"diameter": 4.0, "at": [-96.0, -96.0], "columns": 17, "rows": 17, "pitch": 12.0}
+    board = {"kind": "plate", "width": 210.0, "height": 210.0, "face_width": 3.0, "holes": [grid]}
+    assert build(planned(board, format="stl", tolerance=0.2), tmp_path / "o").well
+    mesh = trimesh.load_mesh(tmp_path / "o" / "p.stl")
+    assert mesh.is_watertight
+    # Euler: as many handles as holes
+    assert mesh.euler_number == 2 - 2 * 17**2
+    assert mesh.area_faces.min() > 0
+    assert mesh.volume == pytest.approx(3 * (210**2 - 289 * 4 * math.pi), rel=3e-2)
