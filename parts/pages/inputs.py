@@ -16,9 +16,9 @@ from geometry.base.errors import ParameterError, format_value
 from parts.base.refusal import REMOVED, SceneError, explained, meant, placed
 from parts.base.schema import converted, fields_of, unit_of
 from parts.base.texts import Message
-from parts.pages.page import Sheet
 
 K = TypeVar("K", bound=Struct)
+P = TypeVar("P")
 # whose keys they are in refusals
 PLACE = "calc"
 # the bodies of a pair, before whose keys these stand
@@ -115,12 +115,14 @@ def refusal(topic: str, error: ParameterError, owner: str = "", keys: Struct | N
     return placed(PLACE, ".".join(filter(None, (topic, owner))), error, unit)
 
 
-def calculation(topic: str, kind: type[K]) -> Callable[[Callable[[K], Sheet]], Callable[[dict[str, Any]], Sheet]]:
-    """A page made of the keys of a topic as one made of a table, which is checked; refusals name the key as typed."""
+def calculation(topic: str, kind: type[K]) -> Callable[[Callable[[K], P]], Callable[[dict[str, Any]], P]]:
+    """A page made, or begun, of the keys of a topic as one made of a table, which is checked; refusals name the key
+    as typed.
+    """
 
-    def of_keys(page: Callable[[K], Sheet]) -> Callable[[dict[str, Any]], Sheet]:
+    def of_keys(page: Callable[[K], P]) -> Callable[[dict[str, Any]], P]:
         @wraps(page)
-        def of_table(table: dict[str, Any]) -> Sheet:
+        def of_table(table: dict[str, Any]) -> P:
             if "part" in table:
                 raise SceneError(PLACE, "part", table["part"], "part_without_scene", REMOVED)
             keys = checked(table, kind, topic)

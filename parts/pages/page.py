@@ -231,6 +231,11 @@ def shortest(value: float, decimals: int) -> str:
     return "0" if text == "-0" else text
 
 
+def not_finite(value: float) -> str:
+    """Infinity, or that there is no such value."""
+    return "–" if math.isnan(value) else "∞" if value > 0 else "-∞"
+
+
 def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     """A value as a reader wants it; ``enclosed`` puts negative numbers in brackets."""
     if isinstance(value, str):
@@ -238,7 +243,7 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     if isinstance(value, int):
         text = str(value)
     elif not math.isfinite(value):
-        text = "∞" if value > 0 else "-∞"
+        text = not_finite(value)
     else:
         _, decimals = UNITS[unit]
         text = shortest(value, decimals)

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from parts.base.texts import Words
-from parts.pages.page import Table, shortest, unit_text
+from parts.pages.page import Table, not_finite, shortest, unit_text
 from parts.pages.symbols import head_text
 
 # decimals of a column, and of one whose numbers are small
@@ -38,9 +38,7 @@ def _labels(table: Table) -> tuple[tuple[str, ...], ...]:
 
 
 def _cell(value: float, decimals: int) -> str:
-    if not math.isfinite(value):
-        return "∞" if value > 0 else "-∞"
-    return shortest(value, decimals)
+    return shortest(value, decimals) if math.isfinite(value) else not_finite(value)
 
 
 def plain_table(table: Table, words: Words) -> list[str]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from typing import Annotated, Literal
 
 from msgspec import Meta, Struct
@@ -89,9 +91,9 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
 
 
 @calculation(TOPIC, PlanetaryKeys)
-def sheet(keys: PlanetaryKeys) -> Sheet:
-    """The sets found, or the one that is given, and all about the first of them."""
-    return _Page(keys).made()
+def begun(keys: PlanetaryKeys) -> Callable[[], Sheet]:
+    """What finishes the sheet of the sets found, or of the one that is given: refused before shifts are sought."""
+    return _Page(keys).begun()
 
 
 def _fault(name: str) -> Message:
@@ -128,8 +130,8 @@ class _Page:
         self.fitting = Fitting(rack, wish, apart, keys.least_gap, keys.working_centre_distance, self.helix)
         self.page = Sheet(TOPIC, _TITLES[keys.scheme])
 
-    def made(self) -> Sheet:
-        """The whole sheet."""
+    def begun(self) -> Callable[[], Sheet]:
+        """What finishes the whole sheet."""
         keys = self.keys
         if (keys.teeth is None) == (keys.ratio is None):
             code = "give_it_or" if keys.ratio is None else "either_of"
@@ -138,16 +140,21 @@ class _Page:
         if keys.teeth is not None:
             one = self._given(keys.teeth)
             places = self._assembled(one) if self._coaxial_enough(one) else equal
-            self._set(one, self._fitted(one), places, N_("The set"))
-            return self.page
-        page = self.page
+            return partial(self._of_one, one, places)
+        return partial(self._of_several, self._sought(), equal)
+
+    def _of_one(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> Sheet:
+        self._set(one, self._fitted(one), places, N_("The set"))
+        return self.page
+
+    def _of_several(self, sets: list[PlanetarySet], equal: tuple[Fraction, ...]) -> Sheet:
+        page, keys = self.page, self.keys
         page.section("Wanted")
         page.add("wanted_ratio", keys.ratio or 0.0, symbol=self._symbol)
         page.add("ratio_tolerance_percent", keys.ratio_tolerance_percent)
         page.add("number_of_satellites", keys.satellites)
         page.add("least_teeth", keys.least_teeth)
         page.add("most_teeth", keys.most_teeth)
-        sets = self._sought()
         page.add("sets_found", len(sets))
         fits = [(one, self._fitted(one)) for one in sets[: keys.rows]]
         self._table(fits)

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import re
 from fractions import Fraction
 from typing import Any
 
@@ -212,3 +213,24 @@ def test_the_ratio_that_a_refusal_names_works() -> None:
     line = refused("ratio=14.2")
     ratio = line.split("; ")[-1].split()[0]
     assert calculated(f"ratio={ratio}")["values"]["sets_found"] >= 1
+
+
+def test_helical_sets_without_shifts_tell_their_contact_ratio() -> None:
+    """Before: a traceback, of a condition that had no words."""
+    assert "small contact ratio" in calculate("planetary", ("teeth=[24,24,72]", "helix_angle_deg=60"), "text", "en")
+
+
+def test_a_set_without_shifts_has_no_numbers_in_their_place() -> None:
+    text = calculate("planetary", ("ratio=2.5", "pressure_angle_deg=32"), "text", "en")
+    assert "∞" not in text
+    assert re.search(r"^ *42 +11 +63 .* –( +–)* *$", text, re.MULTILINE)
+
+
+def test_a_refusal_waits_for_no_search_of_shifts(monkeypatch: pytest.MonkeyPatch) -> None:
+    words = ("ratio=2.5", "pressure_angle_deg=45")
+    monkeypatch.setattr("geometry.gears.planetary.fitting.Fitting.fit", None)
+    with pytest.raises(SceneError) as caught:
+        calculate("planetary", words, "text", "en")
+    # rack A: 2.25 m tan(alpha) of each flank and the flat between them are pi m / 2 at least
+    assert caught.value.nearest is not None
+    assert caught.value.nearest.value == pytest.approx(math.degrees(math.atan(math.pi / 4 / 1.25)), abs=2e-4)
