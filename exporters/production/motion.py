@@ -33,6 +33,8 @@ from parts.scene.standing import Instance
 
 # of numbers in the file, mm
 _ROUNDING = 2e-6
+# mm, half of it for outlines and ways
+LEAST_TOLERANCE = 2 * _ROUNDING
 # of a direction that stays; mm: what chords of silhouettes leave at most; poses of what changes at most
 _LEVEL, _CHORD, _MOST_FORMS = 1e-9, 1e-3, 1920
 # of chains

@@ -9,7 +9,7 @@ from msgspec.structs import replace as with_keys
 
 from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
 from exporters.production.request import Request, is_flat
-from geometry.base.errors import format_value
+from geometry.base.errors import Nearest, format_value
 from geometry.base.record import Record, replace
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant
@@ -194,7 +194,11 @@ def _of_scene(asked: Request) -> Film | ListJob:
     if asked.export.format == "glb":
         from exporters.production.motion_solids import SolidFilm as made
     else:
+        from exporters.production.motion import LEAST_TOLERANCE
         from exporters.production.motion import MotionJob as made
+
+        if (given := asked.export.tolerance or LEAST_TOLERANCE) < LEAST_TOLERANCE:
+            raise asked.refused("tolerance", given, "finer_than_motion", Nearest(LEAST_TOLERANCE, "at_least"), "mm")
     return film(made, asked)
 
 

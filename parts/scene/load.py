@@ -22,7 +22,7 @@ from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
 from parts.base.texts import ENGLISH, Message, languages
-from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
+from parts.keys.base import DEVICE_NAMES, IDENTIFIER, LEAST_LENGTH, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, Kerf, LaidKeys, check_laid
 from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
@@ -521,6 +521,11 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
             raise SceneError(source, f"{place}.parts", part, "no_such_part", meant(part, parts), known=list(parts))
     if spec.kerf and spec.offset:
         refuse("kerf", "kerf_and_offset")
+    for key in ("kerf", "offset"):
+        if 0 < abs(moved := getattr(spec, key)) < LEAST_LENGTH:
+            raise SceneError(
+                source, f"{place}.{key}", moved, "hardly_moves", Nearest(0.0), unit="mm", least=LEAST_LENGTH
+            )
     for key, usual, only in _OF_ONE_FORMAT:
         if spec.format != only and getattr(spec, key) != usual:
             refuse(key, "only_for_format", formats=f'"{only}"', format=spec.format)

@@ -17,7 +17,7 @@ from geometry.base.errors import OffsetError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Reversed, start_point
+from geometry.curves.curve import Reversed, end_point, start_point
 from geometry.curves.fillet import Fillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
@@ -30,6 +30,8 @@ from geometry.solids.hub_holes import Holed
 
 # share of a tip rounding's radius that is left at the edge of the deepest face chamfer
 KEPT_ROUNDING = 0.25
+# of the root radius: a space whose flanks are shorter has closed, for no file tells their ends apart
+_LEAST_SPACE = 1e-4
 W = TypeVar("W", bound=Holed)
 
 
@@ -157,7 +159,7 @@ def _above_centre_line(
     if pieces[last].label is Label.CORNER and pieces[last + 1].label in (Label.TIP_LAND, Label.TIP_BREAK):
         raise OffsetError(bottom, "closes_tooth_spaces")
     kept = _from_first_above(pieces[last:], lambda point: (point * turn).imag)
-    if kept is None:
+    if kept is None or abs(end_point(kept[0].curve) - start_point(kept[0].curve)) < _LEAST_SPACE * bottom:
         raise OffsetError(bottom, "closes_tooth_spaces")
     findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
     return kept

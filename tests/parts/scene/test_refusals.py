@@ -93,6 +93,8 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "kerf and offset": ({}, {"kerf": "0.1", "offset": "0.1"}, "exports[1].kerf", "0.1", "either kerf or offset"),
     "kerf closes the spaces": ({}, {"kerf": "9.0"}, "exports[1].kerf", "9", "at most"),
     "kerf closes the bore": ({"bore_diameter": "1"}, {"kerf": "1.5"}, "exports[1].kerf", "1.5", "at most"),
+    "offset of nothing": ({}, {"offset": "1e-9"}, "exports[1].offset", "1e-09", "0 mm works"),
+    "kerf of nothing": ({}, {"kerf": "1e-7"}, "exports[1].kerf", "1e-07", "0 mm works"),
     "offset leaves no tooth": ({}, {"offset": "-9.9"}, "exports[1].offset", "-9.9", "at least"),
     "chamfer and rounding": ({"tip_chamfer": "0.2", "tip_rounding": "0.2"}, {}, "tip_rounding", "0.2", "either"),
     "unknown part": ({}, {"parts": '["gaer"]'}, "exports[1].parts", "gaer", "did you mean gear"),
@@ -137,6 +139,27 @@ def test_an_offered_kerf_is_one_that_all_parts_survive() -> None:
         planned(found.value)
         with pytest.raises(SceneError):
             planned(1.001 * found.value)
+
+
+def test_a_tolerance_below_the_places_of_an_animation_is_refused(tmp_path: Path) -> None:
+    """Before: the file failed its check."""
+    drive = '[[drives]]\ninstance = "gear"\nturns = 1.0'
+    found = refusal(scene_text({}, {"format": '"motion"', "tolerance": "1e-6"}, drive))
+    assert (found.key, found.code) == ("exports[1].tolerance", "finer_than_motion")
+    assert found.nearest is not None
+    told = scene_text({}, {"format": '"motion"', "tolerance": str(found.nearest.value)}, drive)
+    (tmp_path / "s.toml").write_text(told)
+    assert main(["build", "-q", str(tmp_path / "s.toml"), "--out", str(tmp_path)]) == 0
+
+
+@pytest.mark.parametrize("name", ["svg", "dxf", "step"])
+def test_files_of_the_largest_offset_are_what_they_should_be(name: str, tmp_path: Path) -> None:
+    """Before: a space so nearly closed that its ends were one vertex in the file, which failed its check."""
+    export = {"format": f'"{name}"', "offset": "9.0"}
+    found = refusal(scene_text({"number_of_teeth": "12"}, export)).nearest
+    assert found is not None
+    (tmp_path / "s.toml").write_text(scene_text({"number_of_teeth": "12"}, export | {"offset": str(found.value)}))
+    assert main(["build", "-q", str(tmp_path / "s.toml"), "--out", str(tmp_path)]) == 0
 
 
 @pytest.mark.parametrize("name", WRONG_KEYS)
