@@ -25,9 +25,7 @@ def groove_steps(page: Sheet, pulley: Pulley) -> None:
     """A groove, and the land between two."""
     groove = pulley.belt.groove_of(pulley.number_of_teeth)
     walls = pulley.clearance
-    if walls:
-        page.add("groove_clearance", walls)
-    page.add("pulley_groove_depth", pulley.depth)
+    page.told(groove_clearance=walls or None, pulley_groove_depth=pulley.depth)
     page.add("pulley_root_diameter", 2 * pulley.root_radius, "{d_a} - 2 * {h_g}")
     if isinstance(groove, ArcGroove):
         page.add("groove_floor_radius", groove.floor_radius + walls)

@@ -90,7 +90,8 @@ class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
     def thing(self, keys: CarrierPlateSpec, others: Others) -> CarrierPlate:
         """The plate, checked: arms beside each other, holes that keep their walls."""
         try:
-            return _made(keys)
+            edges, holes, circles = _drawn(keys)
+            return CarrierPlate(checked_outline(edges, keys, holes), circles, keys.pin_diameter / 2)
         except ParameterError as refusal:
             if refusal.name not in _SIZES:
                 raise
@@ -109,11 +110,6 @@ class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
 
 
 CARRIER_PLATE = CarrierPlateKind()
-
-
-def _made(keys: CarrierPlateSpec) -> CarrierPlate:
-    edges, holes, circles = _drawn(keys)
-    return CarrierPlate(checked_outline(edges, keys, holes), circles, keys.pin_diameter / 2)
 
 
 def _drawn(

@@ -78,12 +78,7 @@ def _steps(things: Sequence[Sequence[complex]]) -> int:
         return whole
     # some are left out: the fewest steps that all stand at, more than half of them taken
     turns = [place / found[0][0] for (place,) in found]
-    return next((n for n in range(len(found) + 1, 2 * len(found)) if all(_at_step(t, n) for t in turns)), 0)
-
-
-def _at_step(turn: complex, count: int) -> bool:
-    """Whether a turn is one of so many steps."""
-    return abs(turn**count - 1) < count * _NEAR
+    return next((n for n in range(len(found) + 1, 2 * len(found)) if all(abs(t**n - 1) < n * _NEAR for t in turns)), 0)
 
 
 def _same(one: Sequence[complex], other: Sequence[complex]) -> bool:

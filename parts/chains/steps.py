@@ -99,8 +99,7 @@ def width_steps(page: Sheet, sprocket: Sprocket) -> None:
         page.add("tooth_side_radius", part * chain.pitch, "{p}" if iso else f"{part} * {{p}}", form.standard)
     else:
         page.add("tooth_side_radius", 1.7 * chain.roller_diameter, "1.7 * {d_r}", form.standard)
-    if sprocket.bevel:
-        page.add("tooth_bevel", sprocket.bevel)
+    page.told(tooth_bevel=sprocket.bevel or None)
     if sprocket.plate_room:
         rest = "1.04 * {h_2} - 0.76" if iso else "{p} - 0.762" if isinstance(form, AnsiForm) else "1.3 * {h_2}"
         page.add("plate_room_diameter", sprocket.plate_room, f"{{p}} / tan(pi / {{z}}) - {rest}", form.standard)

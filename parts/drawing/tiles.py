@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.base.record import Record, replace
+from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, draw, text_width
 from parts.drawing.choice import blank
@@ -114,7 +115,7 @@ def _together(
 ) -> Expected:
     """One sheet of several outlines, in rows."""
     canvas = blank(paper, upright=upright, margins=_MARGINS)
-    frame, curves = canvas.frame, list[Edge]()
+    frame, curves = canvas.frame, list[Curve]()
     at, deep = complex(frame.left, frame.high), 0.0
     for name, edges in outlines.items():
         box, cell = boxes[name], _cell(name, boxes[name], frame, language)
@@ -122,21 +123,14 @@ def _together(
             at, deep = complex(frame.left, at.imag - deep - OVERLAP), 0.0
         canvas.write(_caption(name, language), at - 6.0j, TEXT_HEIGHT, frame.wide)
         place = Paper(1.0, at - 1j * _CAPTION - complex(box.left, box.high))
-        for edge in edges:
-            curves.append(moved := _moved(edge, place.origin))
-            canvas.add("CUT", moved)
+        draw(canvas, "CUT", edges, place)
+        curves += map(place.scaled, edges)
         # that of a small part beside the frame would leave the sheet
         cross = Box(-_MARK, -_MARK, _MARK, _MARK).moved(place.origin)
         if Box(0.0, 0.0, 0.0, 0.0).within(box) and cross.within(frame):
             draw(canvas, "CENTRE_MARK", _CROSS, place)
         at, deep = at + cell.real + OVERLAP, max(deep, cell.imag)
-    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": list(curves)})
-
-
-def _moved(edge: Edge, by: complex) -> Edge:
-    if isinstance(edge, Line):
-        return Line(edge.start + by, edge.end + by)
-    return replace(edge, centre=edge.centre + by)
+    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": curves})
 
 
 def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:

@@ -335,7 +335,7 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -
         for corner in edge.ends[:1] if edge.runs_along() else edge.ends:
             # a corner at the end of a cylinder is as far out as that
             at_cylinder = not edge.runs_along() and any(
-                other.runs_along() and corner in _near(other, corner) for other in edges
+                other.runs_along() and any(abs(end - corner) < _NONE for end in other.ends) for other in edges
             )
             zones = seen.setdefault((_radius(corner.imag), edge.outer), {})
             zone = _zone(edges, k, fits, turn) if edge.runs_along() else ("Ø", "")
@@ -362,10 +362,6 @@ def _goes_on(edges: Sequence[_Edge], first: int, last: int) -> bool:
     between = [p.imag for edge in edges[first + 1 : last] for p in edge.ends]
     length = min(abs(edge.ends[1].real - edge.ends[0].real) for edge in (one, two))
     return abs(high - low) < length and all(way * (r - height) < _NONE for r in between)
-
-
-def _near(edge: _Edge, corner: complex) -> list[complex]:
-    return [corner for end in edge.ends if abs(end - corner) < _NONE]
 
 
 def _balls(arcs: Sequence[Arc], language: str) -> Iterator[Size]:

@@ -127,7 +127,7 @@ class Wheel(Record):
     def turn(self) -> float:
         """By how much its face and its section are turned, rad: for its bore to stand upright, where it may."""
         bore = self.holes.bore
-        return _UP - bore.angle if self.stands and bore is not None and _is_keyed(bore) else 0.0
+        return _UP - bore.angle if self.stands and bore is not None and not isinstance(bore, RoundBore) else 0.0
 
 
 class _Levels(Record):
@@ -184,10 +184,6 @@ def bore_radii(bore: Bore | None) -> tuple[float, float]:
             return bore.form.inner, bore.form.inner
         case _:
             return bore.reach, bore.reach
-
-
-def _is_keyed(bore: Bore | None) -> bool:
-    return bore is not None and not isinstance(bore, RoundBore)
 
 
 def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[tuple[float, float], list[Line]]:

@@ -120,11 +120,12 @@ class CamFollower(MateKind[CamFollowerSpec, "DiskCam | GrooveDisk", "FollowerEnd
         cam: Any = first.thing if groove is None else groove.cam
         lowest = float(abs(cam.reference_point(0.0)))
         carried = first.kind == "linkage_cam"
+        if carried and end.arm_length is not None:
+            raise ParameterError("kind", "follower_arm", "linkage_carries_follower")
+        check_end(cam, end)
         if carried:
-            _check_carried(cam, end)
             distance = lowest
         else:
-            check_end(cam, end)
             _check_arm(cam, end)
             # to the pivot, or to the line of motion
             distance = cam.swing.centre_distance if cam.swings else abs(cam.slide.offset)
@@ -191,12 +192,6 @@ def _check_arm(cam: DiskCam, end: FollowerEnd) -> None:
             same_as_cam("face_offset", end.face_offset, mount.face_offset)
         else:
             same_as_cam("arm_length", end.arm_length, mount.arm_length)
-
-
-def _check_carried(cam: DiskCam, end: FollowerEnd) -> None:
-    if end.arm_length is not None:
-        raise ParameterError("kind", "follower_arm", "linkage_carries_follower")
-    check_end(cam, end)
 
 
 def _check_reach(cam: DiskCam, end: FollowerEnd) -> None:

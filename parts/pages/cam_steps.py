@@ -142,7 +142,8 @@ def as_typed(value: float) -> float:
 
 
 def phase_steps(page: Sheet, phases: Phases) -> None:
-    """Lift or swing, and the angle or travel of every phase."""
+    """Under a heading lift or swing, and the angle or travel of every phase."""
+    page.section("Characteristics")
     page.add("swing_deg" if phases.swings else "lift", phases.stroke(phases.lift))
     if phases.left_rows is not None:
         unit = math.degrees(1.0) if phases.swings else 1.0

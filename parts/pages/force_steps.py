@@ -80,6 +80,13 @@ def torque_steps(page: Sheet, keys: Driven, torque: float, name: str, gear: int 
         page.add("pair_power", torque * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
 
 
+def both_speeds(page: Sheet, speeds: tuple[float, float], formula: str = "{n1} / {u}") -> None:
+    """Speeds of what drives, as given, and of what is driven, rpm, under a heading of their own."""
+    page.section("Speeds")
+    page.add("gear_speed", speeds[0], gear=1, given=True)
+    page.add("gear_speed", speeds[1], formula, gear=2)
+
+
 def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helical: Helical, keys: DrivenKeys) -> None:
     """Torques and forces where the load is given: by a torque on the first gear, or by its power and speed."""
     torque = driving_torque(page, keys)

@@ -199,10 +199,17 @@ class Sheet(Draft):
             source = sources if isinstance(sources, str) else sources[gear - 1]
             self.add(name, value, formula, source, gear, symbol=symbol, key=symbol)
 
-    def told(self, **values: Value) -> None:
-        """Steps of what no formula gives, by the names of their terms."""
+    def told(self, **values: Value | None) -> None:
+        """Steps of what no formula gives, by the names of their terms; None: there is no such step."""
         for name, value in values.items():
-            self.add(name, value)
+            if value is not None:
+                self.add(name, value)
+
+    def given(self, **values: Value | None) -> None:
+        """The same of what is given."""
+        for name, value in values.items():
+            if value is not None:
+                self.add(name, value, given=True)
 
     def mark_misprint(self, printed: Printed) -> None:
         """The last step as one that its source misprints."""

@@ -47,7 +47,6 @@ def sheet(keys: BarrelKeys) -> Sheet:
     cam, swings = body.cam, keys.oscillating is not None
     phases = Phases(cam.motion.phases, cam.motion.lift, swings, left_rows=cam.motion.left_rows)
     page = Sheet(TOPIC, N_("Cylindrical cam"))
-    page.section("Characteristics")
     phase_steps(page, phases)
     page.add("roller_diameter", keys.roller_diameter)
     if cam.taper:

@@ -100,15 +100,12 @@ def end_height(cam: BarrelCam) -> float:
     return max(float(cam.wall(t[:, None], LOWER, np.array([cam.inner, cam.outer]), p)[..., 2].max()) for p, t in at)
 
 
-def _side(cam: BarrelCam) -> int:
-    """Which way the inner cylinder moves when material grows: a groove's floor outwards, a tube's inside inwards."""
-    return 1 if cam.is_groove else -1
-
-
 def moved_cam(cam: BarrelCam, offset: float) -> BarrelCam:
     """The cam with walls, floor and outside moved out of the material; a cone is then wider across its axis."""
     radius = cam.radius - offset / cam.upright
-    return replace(cam, radius=radius, outer=cam.outer + offset, inner=cam.inner + _side(cam) * offset)
+    # material grows at a groove's floor outwards, at a tube's inside inwards
+    inner = cam.inner + (offset if cam.is_groove else -offset)
+    return replace(cam, radius=radius, outer=cam.outer + offset, inner=inner)
 
 
 def guides(cam: BarrelCam) -> bool:

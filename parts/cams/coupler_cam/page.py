@@ -63,7 +63,6 @@ def sheet(keys: LinkageKeys) -> Sheet:
     cam = LINKAGE_CAM.thing(keys, {})
     title = N_("Cam with its follower on a connecting rod")
     page, phases = Sheet(TOPIC, title), phases_of(cam)
-    page.section("Characteristics")
     phase_steps(page, phases)
     radius_step(page, cam.kind, cam.radius)
     _linkage(page, keys, cam)
@@ -120,8 +119,7 @@ def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
 def _sizes(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
     """What the cam and the linkage reach over a turn."""
     page.section("Sizes")
-    if keys.least_curvature_radius:
-        page.add("curvature_reserve", keys.least_curvature_radius)
+    page.told(curvature_reserve=keys.least_curvature_radius or None)
     page.told(least_cam_radius=inner_radius(cam), greatest_cam_radius=cam.greatest(lambda t: np.abs(cam.contact(t))))
     page.told(**pressure_angles(cam))
     if cam.radius:

@@ -169,14 +169,12 @@ def finish(
 
 def characteristics(page: Sheet, keys: Any, cam: DiskCam) -> None:
     """The characteristics table of the sheets: H, phases, E, gamma_min."""
-    page.section("Characteristics")
     phase_steps(page, phases_of(cam))
     if isinstance(cam.mount, Oscillating):
         _arm_steps(page, keys, cam, cam.mount)
     else:
         page.add("follower_offset", keys.follower_offset)
-    if keys.least_transmission_angle_deg is not None:
-        page.add("least_transmission_angle_deg", keys.least_transmission_angle_deg)
+    page.told(least_transmission_angle_deg=keys.least_transmission_angle_deg)
     radius_step(page, cam.kind, cam.radius)
 
 
@@ -205,8 +203,7 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
             _rocker(page, keys, cam, cam.mount)
         elif asked is not None:
             rocker_sizes(page, keys, cam, cam.mount)
-    if keys.least_curvature_radius:
-        page.add("curvature_reserve", keys.least_curvature_radius)
+    page.told(curvature_reserve=keys.least_curvature_radius or None)
     base = cam.base_radius
     derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
     exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base

@@ -38,10 +38,8 @@ def scale_section(page: Sheet, cam: DiskCam, drawn: DrawnTable) -> None:
     (phase,) = rises
     lesson = 4 if cam.is_flat else 5
     page.section("Scales of the drawing")
-    page.add("diagram_length", drawn.length, given=True)
-    page.add("greatest_ordinate", drawn.greatest_ordinate, given=True)
-    page.add("drawn_pole_1", drawn.pole_1, given=True)
-    page.add("drawn_pole_2", drawn.pole_2, given=True)
+    page.given(diagram_length=drawn.length, greatest_ordinate=drawn.greatest_ordinate)
+    page.given(drawn_pole_1=drawn.pole_1, drawn_pole_2=drawn.pole_2)
     angle, way = phase.angle / drawn.length, phase.lift / drawn.greatest_ordinate
     rate = way / (drawn.pole_1 * angle)
     bend = rate / (drawn.pole_2 * angle)

@@ -222,11 +222,6 @@ def _moved_walls(disk: GrooveDisk, offset: float) -> tuple[tuple[Profile, Profil
     return (disk.outer(offset), disk.inner(offset)), gaps
 
 
-def _quantities(spec: GrooveCamSpec, disk: GrooveDisk) -> dict[str, float]:
-    groove = {"groove_width": 2 * disk.cam.radius + disk.clearance, "groove_depth": disk.depth}
-    return cam_quantities(_as_cam(spec), disk.cam) | groove
-
-
 def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle
@@ -296,8 +291,10 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
     def report(self, keys: GrooveCamSpec, thing: GrooveDisk) -> Report:
         """Those of the roller's cam, both ways, and of the groove."""
         circles = {"outer_diameter": 2 * thing.outer_radius} | cam_circles(thing.cam)
+        groove = {"groove_width": 2 * thing.cam.radius + thing.clearance, "groove_depth": thing.depth}
+        quantities = cam_quantities(_as_cam(keys), thing.cam) | groove
         engraved = (Finding("engraved_groove", thing.depth, keys.face_width),)
-        return Report(_findings(keys, thing), circles, _quantities(keys, thing), engraved)
+        return Report(_findings(keys, thing), circles, quantities, engraved)
 
     def probes(self, keys: GrooveCamSpec, thing: GrooveDisk) -> tuple[Probe, ...]:
         """A roller along each wall."""

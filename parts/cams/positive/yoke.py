@@ -147,18 +147,14 @@ def _region(spec: YokeFrameSpec, frame: YokeFrame, offset: float) -> Region:
     if not pin > 0:
         raise OffsetError(offset, "pin_holes_closed", frame.pin / 2 * (1 - 1e-6))
     pins = [middle + side * 0.5j * frame.breadth for side in (1, -1)]
-    ends = [_slot_middle(frame) + side * 0.5j * lift for side in (-1, 1)]
+    # the shaft goes from the slot's end to the other as the frame rises: its place in the frame is -S
+    low, high = frame.cam.motion.extremes()
+    ends = [-0.5j * (low + high) + side * 0.5j * lift for side in (-1, 1)]
     slot = PlateSlot(ends[0], ends[1], frame.shaft).profile(offset)
     round_holes = tuple(circle(pin, Label.HOLE, hole=True, centre=at) for at in pins)
     half_height = (frame.breadth + frame.pin) / 2 + spec.wall
     outer = _outline(spec, frame, _width(spec, frame) / 2, half_height, offset, 0.0)
     return Region(outer, (slot, *round_holes))
-
-
-def _slot_middle(frame: YokeFrame) -> complex:
-    """The shaft goes from the slot's end to the other as the frame rises: its place in the frame is -S."""
-    low, high = frame.cam.motion.extremes()
-    return -0.5j * (low + high)
 
 
 def _outline(

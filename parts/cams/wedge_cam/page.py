@@ -51,7 +51,6 @@ def sheet(keys: WedgeKeys) -> Sheet:
     lift = math.radians(keys.swing_deg) if swings else keys.lift
     phases = Phases(tuple(wedge_phases(keys, lift)), lift, swings, slides=True)
     page = Sheet(TOPIC, N_("Wedge cam (a plate that slides)"))
-    page.section("Characteristics")
     phase_steps(page, phases)
     page.add("whole_travel", cam.motion.travel)
     radius_step(page, cam.kind, cam.radius)

@@ -86,7 +86,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     wishes = subject.wishes
     is_round = holes.bore is None or isinstance(holes.bore, RoundBore)
     fits = Fits("", wishes.bore, wishes.tip)
-    outer = _tips(gear)[0]
+    outer, inner = _tips(gear)
     # cones and the face width tell the inner tip, the inner root and where the back cone ends (GOST 2.405)
     half = _half(gear, up if is_round else 0.0, (outer,))
     by_cones = {round(2 * at.imag, 7) for at in (_place(gear, gear.rim), _place(gear, gear.front))}
@@ -100,7 +100,11 @@ def part_drawing(subject: Subject) -> PartDrawing:
     notes = [Note(middle, subject.rough(wishes.flank_roughness), is_rough=True)]
     if holes.bore is not None:
         notes.append(bore_note((0.0, high), -down, subject.rough(wishes.bore_roughness)))
-    cones = _back_angle(gear), _tip_angle(gear)
+    # of the back cone and of the tip cone, at the outer tip
+    cones = (
+        _cone_angle(outer, _place(gear, gear.rim), -1.0, 90.0 - math.degrees(gear.pitch_angle)),
+        _cone_angle(outer, inner, 1.0, math.degrees(gear.tip_cone_angle)),
+    )
     view = View(
         tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), tuple(sizes), notes=tuple(notes),
         slants=(_face_width(gear),), angles=cones,
@@ -126,18 +130,10 @@ def _tips(gear: BevelGear) -> tuple[complex, complex]:
     return _place(gear, gear.outer(gear.tip_angle)), _place(gear, gear.inner(gear.inner_tip_angle))
 
 
-def _tip_angle(gear: BevelGear) -> Angle:
-    """Between the tip cone and a parallel of the axis, at the outer tip."""
-    outer, inner = _tips(gear)
-    way = (inner - outer) / abs(inner - outer)
-    return Angle(outer, 1.0 + 0j, way, sexagesimal(math.degrees(gear.tip_cone_angle)), (0.0, abs(inner - outer)))
-
-
-def _back_angle(gear: BevelGear) -> Angle:
-    """The same of the back cone."""
-    outer, rim = _tips(gear)[0], _place(gear, gear.rim)
-    way = (rim - outer) / abs(rim - outer)
-    return Angle(outer, -1.0 + 0j, way, sexagesimal(90.0 - math.degrees(gear.pitch_angle)), (0.0, abs(rim - outer)))
+def _cone_angle(start: complex, end: complex, way: float, degrees: float) -> Angle:
+    """Between a cone and a parallel of the axis, to the right (1) or to the left (-1)."""
+    long = abs(end - start)
+    return Angle(start, complex(way), (end - start) / long, sexagesimal(degrees), (0.0, long))
 
 
 def _face_width(gear: BevelGear) -> Slant:

@@ -17,7 +17,7 @@ from geometry.solids.hub_holes import HubHoles
 from parts.base.texts import N_, message
 from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec, bevel_findings, bevel_gear
 from parts.keys.base import either, mm
-from parts.pages.force_steps import Power, Speed, Torque, driving_torque
+from parts.pages.force_steps import Power, Speed, Torque, both_speeds, driving_torque
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -340,9 +340,7 @@ def _overlap(page: Sheet, pair: BevelPair) -> None:
 
 def _speeds(page: Sheet, pair: BevelPair, speed_rpm: float) -> None:
     """Of both gears, of their outer pitch circles, of sliding at the outer tips; the first gear drives."""
-    page.section("Speeds")
-    page.add("gear_speed", speed_rpm, gear=1, given=True)
-    page.add("gear_speed", speed_rpm / pair.ratio, "{n1} / {u}", gear=2)
+    both_speeds(page, (speed_rpm, speed_rpm / pair.ratio))
     speed = math.pi * speed_rpm / 30 * pair.first.module * pair.first.number_of_teeth / 2
     page.add("outer_pitch_speed", speed, "pi * {n1} / 30 * {d_e1} / 2")
     start, end = pair.sliding_factors

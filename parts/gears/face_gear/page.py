@@ -12,7 +12,7 @@ from geometry.gears.face.gear import FLANK, FaceGear
 from geometry.gears.face.pair import FacePair
 from parts.base.texts import N_
 from parts.gears.face_gear.part import FACE_GEAR, FaceGearSpec, face_gear_findings, pinion_of
-from parts.pages.force_steps import Power, Speed, Torque, driving_torque
+from parts.pages.force_steps import Power, Speed, Torque, both_speeds, driving_torque
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -48,9 +48,7 @@ def sheet(keys: FaceKeys) -> Sheet:
         if gear.more_teeth:
             page.add("end_gap", pair.end_gap)
     if keys.speed_rpm is not None:
-        page.section(N_("Speeds"))
-        page.add("gear_speed", keys.speed_rpm, gear=1, given=True)
-        page.add("gear_speed", keys.speed_rpm / gear.ratio, "{n1} / {u}", gear=2)
+        both_speeds(page, (keys.speed_rpm, keys.speed_rpm / gear.ratio))
     _forces(page, gear, keys)
     page.notes += [finding_message(found) for found in face_gear_findings(gear)]
     return page
@@ -68,8 +66,7 @@ def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
     page.add("cutter_tip_rounding", gear.cutter.tip_rounding)
     if gear.more_teeth:
         page.add("cutter_teeth", gear.shaper.number_of_teeth)
-    if keys.circumferential_thinning:
-        page.add("circumferential_thinning", keys.circumferential_thinning)
+    page.told(circumferential_thinning=keys.circumferential_thinning or None)
     page.add("plate_thickness", gear.thickness)
 
 

@@ -109,8 +109,7 @@ def _teeth(page: Sheet, keys: NoncircularKeys, gear: NoncircularGear) -> None:
         tip_clearance_coefficient=rack.tip_clearance, tip_radius_coefficient=rack.tip_radius,
         profile_shift_coefficient=gear.profile_shift_coefficient,
     )  # fmt: skip
-    if gear.circumferential_thinning:
-        page.add("circumferential_thinning", gear.circumferential_thinning)
+    page.told(circumferential_thinning=gear.circumferential_thinning or None)
     page.add("tip_height", gear.tip_height, "({h_a} + {x}) * {m}")
     page.add("root_depth", gear.root_depth, "({h_a} + {c} - {x}) * {m}")
     flat, sharp = gear.curvatures

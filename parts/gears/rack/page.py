@@ -61,8 +61,7 @@ def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     page.add("addendum_coefficient", rack.rack.addendum * normal)
     page.add("tip_clearance_coefficient", rack.rack.tip_clearance * normal)
     page.add("tip_radius_coefficient", rack.rack.tip_radius * normal)
-    if rack.circumferential_thinning:
-        page.add("circumferential_thinning", rack.circumferential_thinning)
+    page.told(circumferential_thinning=rack.circumferential_thinning or None)
 
 
 def _dimensions(page: Sheet, rack: Rack) -> None:

@@ -77,9 +77,7 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
     thinning_data(page, ring, helix, "+")
     normal = ring.module / keys.module
     if isinstance(ring.root, RoundedRoot):
-        page.add("dedendum_coefficient", ring.root.dedendum * normal)
-        if ring.root.radius is not None:
-            page.add("root_rounding_coefficient", ring.root.radius)
+        page.told(dedendum_coefficient=ring.root.dedendum * normal, root_rounding_coefficient=ring.root.radius)
     else:
         cutter_data(page, ring.root, normal=normal)
 

@@ -87,7 +87,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
             curves["OUTLINE"] += _teeth(gear, place)
         # what students calculate they draw themselves
         for name in ("reference",) if asked.by_hand else _CIRCLES:
-            layer, radius = f"CIRCLE_{name.upper()}", _radius(gear, name)
+            layer, radius = f"CIRCLE_{name.upper()}", float(getattr(gear, f"{name}_radius"))
             whole = len(gears) == 1
             arc = Arc(0j, radius, 0.0 if whole else turn - 1.5, 2 * math.pi if whole else 3.0)
             canvas.arc(layer, _circle(paper, arc))
@@ -112,12 +112,6 @@ def _check(gears: list[SpurGear]) -> None:
             sizes = {"module": first.module, "teeth": first.number_of_teeth}
             other = {"other_module": gear.module, "other_teeth": gear.number_of_teeth}
             raise ParameterError("parts", None, "one_disk_one_size", **sizes, **other)
-
-
-def _radius(gear: SpurGear, name: str) -> float:
-    return {
-        "tip": gear.tip_radius, "reference": gear.reference_radius, "base": gear.base_radius, "root": gear.root_radius
-    }[name]  # fmt: skip
 
 
 def _teeth(gear: SpurGear, place: Placement2) -> list[Curve]:

@@ -213,7 +213,10 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
             _speeds(page, drive, keys.speed_rpm)
         if driving is not None or keys.wheel_torque is not None or keys.friction_coefficient:
             page.section("Torques and losses")
-            _pitch_angles(page, drive)
+            # how the flank leans where it carries
+            page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle))
+            formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
+            page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
         worth = _losses(page, drive, keys)
         torque = _torques(page, drive, keys, driving, worth)
         if torque is not None and keys.form_factor is not None:
@@ -239,13 +242,11 @@ def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:
     page.add("addendum_coefficient", keys.addendum_coefficient)
     page.add("tip_clearance_coefficient", keys.tip_clearance_coefficient)
     page.add("worm_fillet_coefficient", keys.fillet_coefficient)
-    if keys.axial_thinning:
-        page.add("axial_thinning", keys.axial_thinning)
+    page.told(axial_thinning=keys.axial_thinning or None)
     if keys.number_of_teeth is not None:
         page.add("hob_rounding_coefficient", keys.hob_rounding_coefficient)
         page.add("hob_diameter_quotient", hob_quotient(keys.hob_diameter_quotient, quotient))
-        if keys.wheel_thinning:
-            page.add("hob_thickening", keys.wheel_thinning)
+        page.told(hob_thickening=keys.wheel_thinning or None)
 
 
 def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None, worm_length: float | None) -> None:
@@ -274,8 +275,8 @@ def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None, worm_length: f
     page.add("worm_fillet_radius", worm.fillet_coefficient * worm.module, "{rho_f} * {m}", _GOST)
     if drive:
         _wheel(page, drive)
-    elif worm_length is not None:
-        page.add("worm_length", worm_length)
+    else:
+        page.told(worm_length=worm_length)
 
 
 def _wheel(page: Sheet, drive: WormDrive) -> None:
@@ -384,13 +385,6 @@ def _speeds(page: Sheet, drive: WormDrive, speed_rpm: float) -> None:
     speed = math.pi * speed_rpm / 30 * drive.pitch_radius_of_worm
     page.add("worm_pitch_speed", speed, "pi * {n1} / 30 * {d_w1} / 2")
     page.add("worm_sliding_speed", speed / math.cos(drive.pitch_lead_angle), "{v_w} / cos({gamma_w})")
-
-
-def _pitch_angles(page: Sheet, drive: WormDrive) -> None:
-    """How the flank leans where it carries."""
-    page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle), "")
-    formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
-    page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
 
 
 def _friction_angle(keys: WormKeys, drive: WormDrive) -> float:

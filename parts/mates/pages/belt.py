@@ -16,7 +16,7 @@ from parts.belts.steps import belt_steps, circle_steps
 from parts.keys.base import mm, size
 from parts.mates.belt import BeltDriveSpec, BeltTeeth, belt_mesh
 from parts.mates.pages.drive_keys import drive_of_kind
-from parts.pages.force_steps import driving_torque
+from parts.pages.force_steps import both_speeds, driving_torque
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -59,9 +59,8 @@ def sheet(keys: BeltKeys) -> Sheet:
         circle_steps(page, pulley, gear)
     _length(page, mesh, keys.centre_distance)
     if keys.speed_rpm is not None:
-        page.section(N_("Speeds"))
-        page.add("gear_speed", keys.speed_rpm, gear=1, given=True)
-        page.add("gear_speed", keys.speed_rpm * one.number_of_teeth / two.number_of_teeth, "{n1} * {z1} / {z2}", gear=2)
+        driven = keys.speed_rpm * one.number_of_teeth / two.number_of_teeth
+        both_speeds(page, (keys.speed_rpm, driven), "{n1} * {z1} / {z2}")
         speed = one.number_of_teeth * keys.speed_rpm * mesh.pitch / 60_000
         page.add("belt_speed", speed, "{z1} * {n1} * {p} / 60000")
     torque = driving_torque(page, keys)

@@ -16,7 +16,7 @@ from parts.chains.steps import chain_steps, circle_steps
 from parts.keys.base import mm, size
 from parts.mates.chain import ChainDriveSpec, chain_mesh
 from parts.mates.pages.drive_keys import drive_of_kind
-from parts.pages.force_steps import driving_torque
+from parts.pages.force_steps import both_speeds, driving_torque
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -102,9 +102,7 @@ def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:
 def _speeds(page: Sheet, mesh: ChainMesh, speed: float) -> None:
     """Of both shafts and of the chain, and how unevenly it runs while the driver turns evenly."""
     one, two = mesh.teeth
-    page.section(N_("Speeds"))
-    page.add("gear_speed", speed, gear=1, given=True)
-    page.add("gear_speed", speed * one / two, "{n1} * {z1} / {z2}", gear=2)
+    both_speeds(page, (speed, speed * one / two), "{n1} * {z1} / {z2}")
     page.add("chain_speed", one * speed * mesh.pitch / 60_000, "{z1} * {n1} * {p} / 60000", _SHIGLEY)
     tip = math.pi * speed / 30 * mesh.sprockets[0].pitch_radius / 1000
     page.add("greatest_chain_speed", tip, "pi * {n1} * {d1} / 60000", _SHIGLEY)

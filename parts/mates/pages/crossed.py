@@ -15,7 +15,7 @@ from parts.gears.spur_gear.part import SPUR_GEAR, SpurGearSpec
 from parts.keys.base import mm
 from parts.mates.crossed import CrossedHelicalPair, CrossedHelicalPairSpec, CrossedMating, ShaftAngle
 from parts.mates.pages.pair_keys import GEARS, mate_of, pair_mated, pair_table
-from parts.pages.force_steps import DrivenKeys, asked_torque, torque_steps
+from parts.pages.force_steps import DrivenKeys, asked_torque, both_speeds, torque_steps
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -150,9 +150,7 @@ def _contact(page: Sheet, pair: CrossedPair, *, meets: bool) -> None:
 
 def _speeds(page: Sheet, pair: CrossedPair, speed_rpm: float, *, meets: bool) -> None:
     """Of both gears and of sliding; the first drives."""
-    page.section("Speeds")
-    page.add("gear_speed", speed_rpm, gear=1, given=True)
-    page.add("gear_speed", speed_rpm / pair.ratio, "{n1} / {u}", gear=2)
+    both_speeds(page, (speed_rpm, speed_rpm / pair.ratio))
     speed = math.pi * speed_rpm / 30
     one, two = pair.working_radii
     page.both("working_speed", (speed * one, speed / pair.ratio * two), "pi * {n#} / 30 * {r_w#}")

@@ -307,15 +307,10 @@ def _choice(page: Sheet, module: float, wish: InternalRequirements, choice: Buil
     for name, pairs in (("tip_thickness", state.tip_thicknesses), ("bottom_clearance_at_root", state.tip_clearances)):
         if all(math.isfinite(v) for v in pairs):
             page.both(name, (pairs[0] * module, pairs[1] * module), "", "ISO 21771")
-    _limited_tip(page, pair, found.second, number)
+    # that the default tip was made shallower, in the words of a build
+    if (limited := tip_finding(pair.ring(found.second), 1.0)) is not None:
+        page.note("{number}: {finding}", number=number, finding=finding_message(limited))
     _broken(page, pair, wish, choice, number)
-
-
-def _limited_tip(page: Sheet, pair: InternalShiftPair, shift: float, number: int) -> None:
-    """That the default tip was made shallower, in the words of a build."""
-    ring = pair.ring(shift)
-    if (found := tip_finding(ring, 1.0)) is not None:
-        page.note("{number}: {finding}", number=number, finding=finding_message(found))
 
 
 def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:

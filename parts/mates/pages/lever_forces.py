@@ -227,8 +227,7 @@ class ForcePage:
         page.add("force_equations", 3 * self.levers.links, "3 * {n}")
         page.add("force_unknowns", 2 * self.levers.lower_pairs + 1, "2 * {p_5} + 1", "guidelines, 4.18")
         if keys.gravity and weighs(keys):
-            page.add("gravity", keys.gravity, given=True)
-            page.add("gravity_angle_deg", keys.gravity_angle_deg, given=True)
+            page.given(gravity=keys.gravity, gravity_angle_deg=keys.gravity_angle_deg)
         for name, body in self.forces.named:
             of: Text = message(N_("point {name}") if name.isalpha() else N_("link {name}"), name=name)
             if self._heavy(name):
@@ -242,14 +241,12 @@ class ForcePage:
                     page.add("centre_across", body.centre.imag, symbol=f"y_S{name}", of=of, given=True)
             if keys.gravity and self._heavy(name):
                 page.add("link_weight", body.mass * keys.gravity, f"{{m_{name}}} * {{g}}", symbol=f"G_{name}", of=of)
-        if keys.resistance is not None:
-            page.add("resisting_force", keys.resistance, given=True)
+        page.given(resisting_force=keys.resistance)
         if keys.resisting_moment is not None:
             page.add("resisting_moment", keys.resisting_moment, symbol=f"M_c{self.forces.output}", given=True)
         if keys.drive_radius is not None:
-            page.add("drive_radius", keys.drive_radius, given=True)
-            page.add("drive_pressure_angle_deg", keys.drive_pressure_angle_deg, given=True)
-            page.add("drive_angle_deg", keys.drive_angle_deg, given=True)
+            page.given(drive_radius=keys.drive_radius, drive_pressure_angle_deg=keys.drive_pressure_angle_deg)
+            page.given(drive_angle_deg=keys.drive_angle_deg)
 
     def _heavy(self, name: str) -> bool:
         """Whether a mass is given, not a moment of inertia alone."""

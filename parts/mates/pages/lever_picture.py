@@ -181,13 +181,9 @@ class LeverPicture(Record, eq=False):
             high = high if high > low else low + 1
             top = number * third + 14
             tall = third - 26
+            yield _zero(top + high / (high - low) * tall)
             x = (angle - angle[0]) / 360 * _SIDE
-            y = top + (high - values) / (high - low) * tall
-            zero = top + high / (high - low) * tall
-            axis = f"stroke:{_AXIS};stroke-width:1"
-            yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
-            points = zip(x[::_EVERY], y[::_EVERY], strict=True)
-            yield chain(points, f"fill:none;stroke:{_COLOURS[number]};stroke-width:1.6")
+            yield _curve(x, top + (high - values) / (high - low) * tall, number)
             ends = " … ".join(words.decimal(f"{value:.4g}") for value in (low, high))
             shown = f"{name}, {unit_text(unit, words)}  {ends}"
             yield written(0, top - 5, shown, _COLOURS[number], 13, "start")
@@ -210,19 +206,27 @@ def together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> I
     high = high if high > low else low + 1
     tall, top = _SIDE - 18 * len(curves), 18.0 * len(curves)
     x = (angle - angle[0]) / (angle[-1] - angle[0]) * _SIDE
-    zero = top + high / (high - low) * tall
-    axis = f"stroke:{_AXIS};stroke-width:1"
-    yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
+    yield _zero(top + high / (high - low) * tall)
     for number, (name, values) in enumerate(curves):
-        y = top + (high - values) / (high - low) * tall
-        points = zip(x[::_EVERY], y[::_EVERY], strict=True)
-        yield chain(points, f"fill:none;stroke:{_COLOURS[number]};stroke-width:1.6")
+        yield _curve(x, top + (high - values) / (high - low) * tall, number)
         # what rounding leaves of 0 is 0
         told = (
             value if abs(value) > 1e-12 * (high - low) else 0.0 for value in map(float, (values.min(), values.max()))
         )
         ends = " … ".join(words.decimal(f"{value:.4g}") for value in told)
         yield written(0, 12 + 18 * number, f"{name}  {ends}", _COLOURS[number], 13, "start")
+
+
+def _zero(y: float) -> str:
+    """The axis of a diagram."""
+    axis = f"stroke:{_AXIS};stroke-width:1"
+    return f'<line x1="0" y1="{y:.2f}" x2="{_SIDE:.0f}" y2="{y:.2f}" style="{axis}"/>'
+
+
+def _curve(x: Real, y: Real, number: int) -> str:
+    """A diagram's curve in a colour of its own, by its points, px."""
+    points = zip(x[::_EVERY], y[::_EVERY], strict=True)
+    return chain(points, f"fill:none;stroke:{_COLOURS[number]};stroke-width:1.6")
 
 
 class _View:

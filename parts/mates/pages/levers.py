@@ -213,13 +213,10 @@ class _Page:
     def _given(self) -> None:
         page, keys = self.page, self.keys
         page.section("Given")
-        page.add("crank_angle_deg", keys.start_angle_deg, given=True)
-        if keys.speed_rpm is not None:
-            page.add("crank_speed_rpm", keys.speed_rpm, given=True)
+        page.given(crank_angle_deg=keys.start_angle_deg, crank_speed_rpm=keys.speed_rpm)
         formula = "" if keys.speed_rpm is None else "pi * {n_1} / 30"
         page.add("crank_speed", keys.speed, formula, given=keys.speed_rpm is None)
-        if keys.acceleration:
-            page.add("crank_acceleration", keys.acceleration, given=True)
+        page.given(crank_acceleration=keys.acceleration or None)
         page.add("crank_length", self.levers.crank, given=True)
         rod = None if keys.first == "stone" else keys.coupler_length
         lengths: list[tuple[str, float | None]] = [("first_rod_length", rod)]

@@ -216,7 +216,8 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     page.told(path_length=float(rows.way[-1]), path_error=rows.error)
     found = zip(rows.way, *_columns(keys, table, rows.place, rows.delta, rows.beta), strict=True)
     joints = tuple((_second(table, rows.delta[k]), complex(rows.place[k])) for k in (0, -1))
-    page.picture = replace(scheme(table.arms, table.ratio, joints), path=_points_of(pieces))
+    path = [piece.point(np.linspace(*piece.domain, 2 if isinstance(piece, Line) else 65)) for piece in pieces]
+    page.picture = replace(scheme(table.arms, table.ratio, joints), path=np.concatenate(path))
     heads = (("s", "mm"), *_heads())
     page.table("path", N_("Path, row by row: both worms run evenly in between"), heads, found)
     _notes(page, keys)
@@ -225,12 +226,6 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
 def _second(table: TwoDisk, delta: float) -> complex:
     """O2."""
     return table.arms[0] * cmath.rect(1.0, math.pi / 2 - delta)
-
-
-def _points_of(pieces: list[Piece]) -> Complex:
-    return np.concatenate(
-        [piece.point(np.linspace(*piece.domain, 2 if isinstance(piece, Line) else 65)) for piece in pieces]
-    )
 
 
 def _piece(x1: float, y1: float, x2: float, y2: float, bulge: float) -> Piece:

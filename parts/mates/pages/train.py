@@ -562,10 +562,8 @@ class _Page:
         page, train = self.page, self.train
         for body, torque in state.torques.items():
             page.add("torque", float(torque), symbol=f"T_{self._name(body)}")
-        page.add("power_in", float(state.power_in))
-        if state.efficiency is not None:
-            page.add("efficiency", float(state.efficiency))
-        page.add("circulation", float(state.circulation))
+        efficiency = None if state.efficiency is None else float(state.efficiency)
+        page.told(power_in=float(state.power_in), efficiency=efficiency, circulation=float(state.circulation))
         if state.circulation > 1:
             page.note("power goes round: a mesh carries more than is put in")
         modules = {(mesh.first, mesh.second): self._module(mesh) for mesh in train.meshes}

@@ -22,6 +22,7 @@ from parts.drawing.canvas import SMALL_TEXT, Canvas, Paper, scale_text, standard
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
 from parts.drawing.pieces import Piece, laid, reach, titled
+from parts.drawing.revolved import closed
 from parts.drawing.table import Row, Table
 from parts.drawing.title_block import FORM_1, check_held, draw_title_block, title_block_of
 from parts.keys.title import TitleBlockTable
@@ -122,7 +123,9 @@ class LeverDrawing(Record, eq=False):
             if name in fixed:
                 _support(canvas, at)
         for name, way in shown.blocks.items():
-            _polygon(canvas, "OUTLINE", [places[0][name] + way / abs(way) * corner for corner in _corners(_STONE)])
+            corners = (_STONE, -_STONE.conjugate(), -_STONE, _STONE.conjugate())
+            for side in closed([places[0][name] + way / abs(way) * corner for corner in corners]):
+                canvas.add("OUTLINE", side)
             if name in sliding:
                 _rail(canvas, paths[name], way / abs(way))
         labels = Labeller(canvas, reach(canvas).grown(_ABOUT))
@@ -215,15 +218,6 @@ def _lowered(name: str) -> str:
     """R_34n and a3 with what stands low in them."""
     head, _, index = name.partition("_")
     return f"{head}_{{{index}}}" if index else re.sub(r"^(.)(\d+)$", r"\1_{\2}", name)
-
-
-def _corners(half: complex) -> list[complex]:
-    return [half, complex(-half.real, half.imag), -half, complex(half.real, -half.imag)]
-
-
-def _polygon(canvas: Canvas, layer: str, corners: Sequence[complex]) -> None:
-    for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
-        canvas.line(layer, start, end)
 
 
 def _support(canvas: Canvas, at: complex) -> None:

@@ -75,7 +75,10 @@ class Scheme(Draft):
                 self._line(x, low, x, low, _OFF, -_BACK)
                 self._ground(complex(x, self.y(low) - _BACK), -1)
                 return []
-            self._cross(complex(x, self.y(axis)))
+            # fast on its shaft
+            at = complex(x, self.y(axis))
+            for way in (1 + 1j, 1 - 1j):
+                self.canvas.line("SCHEME", at - _CROSS * way, at + _CROSS * way)
             return [x]
         self.marks[rim.name] = complex(x, self.y(top) + _BACK)
         for sign, edge in ((1, top), (-1, low)):
@@ -142,8 +145,3 @@ class Scheme(Draft):
         for k in range(4):
             foot = at + complex(-_HALF + (k + 0.3) * 2 * _HALF / 4, 0)
             self.canvas.line("DIMENSION", foot, foot + complex(_HATCH * 0.7, way * _HATCH))
-
-    def _cross(self, at: complex) -> None:
-        """Fast on its shaft."""
-        for way in (1 + 1j, 1 - 1j):
-            self.canvas.line("SCHEME", at - _CROSS * way, at + _CROSS * way)

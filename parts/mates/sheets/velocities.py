@@ -8,7 +8,7 @@ from geometry.base.record import Record
 from parts.base.texts import N_
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
-from parts.drawing.readback import ReadLine, ReadSheet, Taken, lines_missing
+from parts.drawing.readback import ReadSheet, Taken, lines_missing
 from parts.mates.sheets.train_picture import TrainPicture
 
 # a link that turns less than this share of the fastest is a point on the pole line, which no divider measures, and so
@@ -138,7 +138,8 @@ class PlanMeasures(Record):
             off = max(max(abs(x.start - a), abs(x.end - b)) for x, (_, a, b) in zip(found, wanted, strict=True))
             taken.measured[f"{layer.lower()}_deviation"] = off
             taken.unless(off <= taken.room, "{layer}: a line is {off:.3g} mm off", layer=layer, off=off)
-            slopes = {link: _slope(line) for line, (link, _, _) in zip(found, wanted, strict=True)}
+            ways = [x.end - x.start for x in found]
+            slopes = {link: way.real / way.imag for way, (link, _, _) in zip(ways, wanted, strict=True)}
             for link, slope in slopes.items():
                 if link == driver or not abs(slope) > _LEAST * max(map(abs, slopes.values())):
                     continue
@@ -146,12 +147,7 @@ class PlanMeasures(Record):
                 ratio, right = slopes[driver] / slope, float(1 / links[link].rate)
                 taken.measured[name] = ratio
                 # the guidelines read it off a drawing: within a thousandth, where the dividers' points allow it
-                least = min(abs((x.end - x.start).real) for x in found)
+                least = min(abs(way.real) for way in ways)
                 near = abs(ratio / right - 1) <= max(1e-3, 8 * taken.room / max(least, 1e-300))
                 told = N_("{name} measures {ratio:.6g} instead of {right:.6g}")
                 taken.unless(near, told, name=name, ratio=ratio, right=right)
-
-
-def _slope(line: ReadLine) -> float:
-    way = line.end - line.start
-    return way.real / way.imag
