@@ -17,8 +17,8 @@ from exporters.drawings.write import BEARING
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
-from parts.drawing.canvas import FRAME, STYLES
-from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText, base_line
+from parts.drawing.canvas import FRAME, STYLES, Run
+from parts.drawing.readback import PER_CURVE, ReadSheet, base_line
 
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import DrawnSpline
@@ -94,7 +94,7 @@ def _read_dxf(file: Path) -> ReadSheet:
     for one in words:
         way, free = base_line(one.right - one.left), BEARING * one.height
         width = abs(one.right - one.left) + 2 * free
-        sheet.texts.append(ReadText(one.text, one.left - free * way, width, one.height, way))
+        sheet.texts.append(Run(one.text, one.left - free * way, one.height, width, way))
     return sheet
 
 
@@ -141,7 +141,7 @@ def _read_svg(file: Path) -> ReadSheet:
                 raise ReadError(f"has words that are turned by {turn}")
             way = 1.0 if turn is None else turns[turn]
             capital, length = float(size[1]) * 1493 / 2048, float(text.get("textLength", "nan"))
-            sheet.texts.append(ReadText(text.text or "", at, length, capital, way))
+            sheet.texts.append(Run(text.text or "", at, capital, length, way))
     return sheet
 
 

@@ -13,8 +13,8 @@ import numpy as np
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
-from parts.drawing.canvas import STYLES, Style
-from parts.drawing.readback import PER_CURVE, ReadArc, ReadSheet, ReadText, base_line
+from parts.drawing.canvas import STYLES, Run, Style
+from parts.drawing.readback import PER_CURVE, ReadArc, ReadSheet, base_line
 
 _POINT = 72 / 25.4
 # height of a capital as a part of the font's size
@@ -45,7 +45,7 @@ class PdfPage(Draft):
     width: float
     height: float
     paths: list[PdfPath] = field(default_factory=list)
-    texts: list[ReadText] = field(default_factory=list)
+    texts: list[Run] = field(default_factory=list)
 
     def sheet(self, layers: Sequence[str]) -> ReadSheet:
         """What is on it: a PDF names no layers, so its paths are held to look as these, in turn.
@@ -251,7 +251,7 @@ class _Reader:
         words, length = self.font.said(plain)
         size = self.size / _POINT
         at, way = self._on(self.text), self._on(self.text + 1) - self._on(self.text)
-        self.page.texts.append(ReadText(words, at, length * size * self.stretch / 100, size * _CAPITAL, base_line(way)))
+        self.page.texts.append(Run(words, at, size * _CAPITAL, length * size * self.stretch / 100, base_line(way)))
 
 
 def _add(sheet: ReadSheet, layer: str, pieces: tuple[Complex, ...]) -> None:

@@ -19,7 +19,7 @@ from geometry.plane.measure import distance_to_curve, distance_to_curves
 from parts.base.texts import N_, fault
 from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
-from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText, Taken
+from parts.drawing.readback import PER_CURVE, ReadSheet, Taken
 
 # share of the paper's size that numbers of a file may be off
 _ROUNDING = 1e-11
@@ -161,7 +161,7 @@ def _check_places(sheet: ReadSheet, canvas: Canvas, taken: Taken) -> None:
         taken.failures += [fault(more, text=text, at=_told(found[k, 0])) for k in strange]
 
 
-def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
+def _marks(words: Run) -> tuple[complex, complex, complex]:
     """Both ends of the base line, and the top above its beginning."""
     return words.at, words.at + words.width * words.way, words.at + 1j * words.height * words.way
 
@@ -247,7 +247,7 @@ def _told(at: complex) -> str:
     return f"{at.real:.3f}, {at.imag:.3f}"
 
 
-def _box(text: ReadText) -> Box:
+def _box(text: Run) -> Box:
     far = text.at + text.way * complex(text.width, text.height)
     return Box.of((text.at, far))
 

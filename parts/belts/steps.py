@@ -28,8 +28,7 @@ def groove_steps(page: Sheet, pulley: Pulley) -> None:
     page.told(groove_clearance=walls or None, pulley_groove_depth=pulley.depth)
     page.add("pulley_root_diameter", 2 * pulley.root_radius, "{d_a} - 2 * {h_g}")
     if isinstance(groove, ArcGroove):
-        page.add("groove_floor_radius", groove.floor_radius + walls)
-        page.add("groove_flank_radius", groove.flank_radius + walls)
+        page.told(groove_floor_radius=groove.floor_radius + walls, groove_flank_radius=groove.flank_radius + walls)
         page.add("flank_centre_offset", groove.flank_offset)
     else:
         width = groove.width_of(pulley.outer_radius, walls)

@@ -52,9 +52,7 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
     reference, alpha = joint.module * joint.teeth, joint.pressure_angle
     page = Sheet(TOPIC, N_("Involute spline"))
     page.section("Given")
-    page.add("spline_designation", joint.named())
-    page.add("module", joint.module)
-    page.add("number_of_teeth", joint.teeth)
+    page.told(spline_designation=joint.named(), module=joint.module, number_of_teeth=joint.teeth)
     page.add("spline_pressure_angle_deg", math.degrees(alpha))
     page.section("Sizes")
     page.add("reference_diameter", reference, "{m} * {z}")
@@ -66,10 +64,8 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
         page.add("spline_thickness", joint.thickness, "pi / 2 * {m} + 2 * {xm} * tan({alpha})", keys.standard)
     else:
         page.add("spline_thickness", joint.thickness, "pi / 2 * {m}", keys.standard)
-    page.add("shaft_tip_diameter", joint.shaft_diameters[1])
-    page.add("shaft_root_diameter", joint.shaft_diameters[0])
-    page.add("hub_tip_diameter", joint.hub_diameters[0])
-    page.add("hub_root_diameter", joint.hub_diameters[1])
+    page.told(shaft_tip_diameter=joint.shaft_diameters[1], shaft_root_diameter=joint.shaft_diameters[0])
+    page.told(hub_tip_diameter=joint.hub_diameters[0], hub_root_diameter=joint.hub_diameters[1])
     _form_steps(page, joint)
     page.add("spline_clearance", keys.clearance)
     tip, inner = joint.shaft_diameters[1], joint.hub_diameters[0]
@@ -93,10 +89,8 @@ def _form_steps(page: Sheet, joint: InvoluteJoint) -> None:
         page.add("shaft_form_diameter", low, "{D_a} - 2 * {c_F}", joint.standard)
         page.add("hub_form_diameter", high, "{d_a} + 2 * {c_F}", joint.standard)
     shaft, hub = joint.shaft(), joint.hub()
-    page.add("shaft_rounding", shaft.root_rounding)
-    page.add("hub_rounding", hub.crest_rounding)
-    page.add("shaft_side_diameter", shaft.side_diameters[0])
-    page.add("hub_side_diameter", hub.side_diameters[1])
+    page.told(shaft_rounding=shaft.root_rounding, hub_rounding=hub.crest_rounding)
+    page.told(shaft_side_diameter=shaft.side_diameters[0], hub_side_diameter=hub.side_diameters[1])
 
 
 def _measured_steps(page: Sheet, joint: InvoluteJoint, keys: InvoluteSplineKeys, *, is_shaft: bool) -> None:

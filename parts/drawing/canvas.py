@@ -348,10 +348,6 @@ class Canvas(Draft):
         for side in (1, -1):
             self.line(layer, tip, tip - length * way * cmath.exp(1j * side * math.radians(half)))
 
-    def arc(self, layer: str, arc: Arc) -> None:
-        """An arc or a full circle."""
-        self.add(layer, arc)
-
     def box(self, layer: str, box: Box) -> None:
         """Four lines."""
         for start, end in pairwise([*box.corners, box.corners[0]]):

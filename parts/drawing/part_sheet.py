@@ -149,7 +149,7 @@ class _Corner(Record):
         # brackets as arcs: programs fit letters to a length, and a bracket has hardly any
         middle = complex(x + 6.0, foot.imag + 4.0)
         for turn in (0.0, math.pi):
-            canvas.arc("THIN", Arc(middle, 6.0, turn - _BRACKET, 2 * _BRACKET))
+            canvas.add("THIN", Arc(middle, 6.0, turn - _BRACKET, 2 * _BRACKET))
 
 
 def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, asked: Asked) -> Expected:

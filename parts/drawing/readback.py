@@ -9,6 +9,7 @@ import numpy as np
 from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
 from parts.base.texts import fault, unless
+from parts.drawing.canvas import Run
 
 # samples of each curve, or of each smooth span of it
 PER_CURVE = 13
@@ -29,16 +30,6 @@ class ReadArc(Record):
     centre: complex
     radius: float
     sweep: float
-
-
-class ReadText(Record):
-    """Words: beginning of the base line, length and height of capitals, mm; ``way``: of the base line, 1, 1j or -1."""
-
-    text: str
-    at: complex
-    width: float
-    height: float
-    way: complex = 1.0
 
 
 def base_line(way: complex) -> complex:
@@ -63,7 +54,7 @@ class ReadSheet(Draft):
 
     lines: list[ReadLine] = field(default_factory=list)
     arcs: list[ReadArc] = field(default_factory=list)
-    texts: list[ReadText] = field(default_factory=list)
+    texts: list[Run] = field(default_factory=list)
     samples: list[tuple[str, Complex]] = field(default_factory=list)
     width: float = 0.0
     height: float = 0.0

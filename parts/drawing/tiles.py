@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
@@ -123,8 +124,9 @@ def _together(
             at, deep = complex(frame.left, at.imag - deep - OVERLAP), 0.0
         canvas.write(_caption(name, language), at - 6.0j, TEXT_HEIGHT, frame.wide)
         place = Paper(1.0, at - 1j * _CAPTION - complex(box.left, box.high))
-        draw(canvas, "CUT", edges, place)
-        curves += map(place.scaled, edges)
+        moved = [edge.placed(Placement2(0.0, place.origin)) for edge in edges]
+        draw(canvas, "CUT", moved, Paper(1.0, 0j))
+        curves += moved
         # that of a small part beside the frame would leave the sheet
         cross = Box(-_MARK, -_MARK, _MARK, _MARK).moved(place.origin)
         if Box(0.0, 0.0, 0.0, 0.0).within(box) and cross.within(frame):

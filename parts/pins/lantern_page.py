@@ -43,12 +43,9 @@ def sheet(keys: LanternKeys) -> Sheet:
 
 def _given(page: Sheet, gear: LanternGear) -> None:
     page.section("Given")
-    page.add("number_of_teeth", gear.number_of_teeth)
-    page.add("number_of_pins", gear.number_of_pins)
-    page.add("lantern_pitch_radius", gear.lantern_radius)
-    page.add("pin_radius", gear.pin_diameter / 2)
-    page.add("pin_clearance", gear.pin_clearance)
-    page.add("root_clearance", gear.root_clearance)
+    page.told(number_of_teeth=gear.number_of_teeth, number_of_pins=gear.number_of_pins)
+    page.told(lantern_pitch_radius=gear.lantern_radius, pin_radius=gear.pin_diameter / 2)
+    page.told(pin_clearance=gear.pin_clearance, root_clearance=gear.root_clearance)
 
 
 def _sizes(page: Sheet, gear: LanternGear) -> None:
@@ -71,10 +68,8 @@ def _limits(page: Sheet, gear: LanternGear) -> None:
              "{r_2} * sin(pi / {N})")  # fmt: skip
     neck = 2 * (gear.pitch_radius * math.sin(gear.pitch_angle / 2) - gear.root_arc_radius)
     page.add("neck_width", neck, "2 * ({r_1} * sin({tau} / 2) - {rho_f})")
-    page.add("flank_start_radius", found.start_radius)
-    page.add("pointed_radius", found.pointed_radius)
-    page.add("tip_radius", found.tip_radius)
-    page.add("tip_thickness", gear.tip_thickness)
+    page.told(flank_start_radius=found.start_radius, pointed_radius=found.pointed_radius)
+    page.told(tip_radius=found.tip_radius, tip_thickness=gear.tip_thickness)
 
 
 def _contact(page: Sheet, gear: LanternGear) -> None:

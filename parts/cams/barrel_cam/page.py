@@ -52,10 +52,8 @@ def sheet(keys: BarrelKeys) -> Sheet:
     if cam.taper:
         page.add("cone_angle_deg", math.degrees(2 * math.atan(cam.taper)))
     if isinstance(cam.guide, SwingGuide):
-        page.add("arm_length", cam.guide.arm_length)
-        page.add("pivot_offset", cam.guide.pivot_offset)
-        page.add("pivot_height", cam.guide.pivot_height)
-        page.add("start_angle_deg", math.degrees(cam.guide.start_angle))
+        page.told(arm_length=cam.guide.arm_length, pivot_offset=cam.guide.pivot_offset)
+        page.told(pivot_height=cam.guide.pivot_height, start_angle_deg=math.degrees(cam.guide.start_angle))
     coefficient_steps(page, phases)
     _sizes(page, keys, body)
     page.data["phases"] = phases.data()

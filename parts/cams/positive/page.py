@@ -79,13 +79,11 @@ def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
     page.section("Second disk")
     between = between_rollers(second.first, second.pair)
     if cam.swings:
-        page.add("inner_roller_angle_deg", 360.0 - math.degrees(between))
-        page.add("roller_angle_deg", math.degrees(between))
+        page.told(inner_roller_angle_deg=360.0 - math.degrees(between), roller_angle_deg=math.degrees(between))
         page.add("second_arm_length", cam.swing.arm_length)
     else:
         page.add("roller_distance", between)
-    page.add("second_follower_radius", cam.radius)
-    page.add("second_least_radius", inner_radius(cam))
+    page.told(second_follower_radius=cam.radius, second_least_radius=inner_radius(cam))
     page.add("second_pressure_angle_deg", math.degrees(greatest_pressure_angle(cam).value))
     page.add("second_curvature_radius", least_convex_radius(cam).value)
     whose = N_("second disk, as it sits on the shaft")

@@ -75,7 +75,7 @@ class Joint(Record):
             if curve is not None:
                 drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
         for point in _points(self):
-            canvas.arc("JOINT_DIAGRAM", Arc(to(point), _MARK, 0.0, 2 * math.pi))
+            canvas.add("JOINT_DIAGRAM", Arc(to(point), _MARK, 0.0, 2 * math.pi))
         for a, slope in self.borders:
             start, end = _clipped(-1j * a, 1 + 1j * slope, window)
             drawn.line(canvas, "GAMMA_TANGENT", to(start), to(end))
@@ -89,7 +89,7 @@ class Joint(Record):
             low, high = (to(complex(self.offset, y)) for y in (window.low, window.high))
             drawn.line(canvas, "OFFSET_AXIS", low, high)
         for point in dict.fromkeys((0j, self.least, self.centre)):
-            canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+            canvas.add("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
         drawn.line(canvas, "DIMENSION", to(0j), to(self.least))
         _angle(canvas, self, paper)
         return drawn
@@ -210,7 +210,7 @@ def _angle(canvas: Canvas, joint: Joint, paper: Paper) -> None:
         return
     centre, arc = _angle_arc(joint, paper, gamma)
     start = 0.0 if joint.order == 1 else math.pi - gamma
-    canvas.arc("DIMENSION", Arc(centre, abs(arc), start, gamma))
+    canvas.add("DIMENSION", Arc(centre, abs(arc), start, gamma))
 
 
 def _angle_arc(joint: Joint, paper: Paper, gamma: float) -> tuple[complex, complex]:

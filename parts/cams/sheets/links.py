@@ -118,7 +118,7 @@ def _members(
         for start, end in zip(corners, [*corners[1:], corners[0]], strict=True):
             drawn.line(canvas, "FOLLOWER", start, end)
     for point in (*joints, *pivots(cam)):
-        canvas.arc("FOLLOWER", Arc(paper.point(point * back), _JOINT, 0.0, _TURN))
+        canvas.add("FOLLOWER", Arc(paper.point(point * back), _JOINT, 0.0, _TURN))
 
 
 def name_links(labels: Labeller, picture: CamPicture, cam: LinkageCam, paper: Paper) -> None:

@@ -106,7 +106,7 @@ def draw_profile(
 
     def circle(layer: str, centre: complex, radius: float) -> None:
         made = Arc(paper.point(centre), paper.scale * radius, 0.0, _TURN)
-        canvas.arc(layer, made)
+        canvas.add(layer, made)
         circles.append(Circle(layer, made.centre, made.radius))
 
     for way in (1, 1j):
@@ -139,12 +139,12 @@ def draw_profile(
             # the part of the face about the contact
             down = cmath.phase(-_turned(position.angle, complex(cam.normal(position.angle))))
             face = Arc(paper.point(centre), paper.scale * cam.radius, down - _FACE_HALF, 2 * _FACE_HALF)
-            canvas.arc("ROLLER", face)
+            canvas.add("ROLLER", face)
             circles.append(Circle("ROLLER", face.centre, face.radius))
         elif cam.radius:
             circle("ROLLER", centre, cam.radius)
         elif not cam.is_flat:
-            canvas.arc("ROLLER", Arc(paper.point(centre), 0.6, 0.0, _TURN))
+            canvas.add("ROLLER", Arc(paper.point(centre), 0.6, 0.0, _TURN))
     curves: dict[str, list[Curve]] = {"CAM": [s.curve for s in whole_profile(cam).period]}
     if cam.radius:
         pitch = replace(cam, kind=FollowerKind.POINTED, radius=0.0)
@@ -204,7 +204,7 @@ def _turning(canvas: Canvas, paper: Paper, reach: Reach) -> None:
     """An arrow that turns with the cam."""
     radius = 0.45 * paper.scale * reach.base
     arc = Arc(paper.point(0j), radius, math.radians(200), math.radians(60))
-    canvas.arc("DIMENSION", arc)
+    canvas.add("DIMENSION", arc)
     canvas.arrow("DIMENSION", complex(arc.point(arc.sweep)), complex(arc.tangent(arc.sweep)), half=14.0)
 
 

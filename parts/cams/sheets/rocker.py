@@ -66,7 +66,7 @@ def draw_faces(canvas: Canvas, drawn: Drawn, picture: CamPicture, paper: Paper) 
     """The faces from beside the pivot to the contact, which is marked."""
     for beside, contact in faces(picture):
         drawn.line(canvas, "CONSTRUCTION", paper.point(beside), paper.point(contact))
-        canvas.arc("JOINT_DIAGRAM", Arc(paper.point(contact), 0.7, 0.0, 2 * math.pi))
+        canvas.add("JOINT_DIAGRAM", Arc(paper.point(contact), 0.7, 0.0, 2 * math.pi))
 
 
 def name_rocker(labels: Labeller, picture: CamPicture, paper: Paper, least: complex) -> None:

@@ -60,7 +60,7 @@ class Swing(Record):
             canvas.squares_about(to(0j), Box.of([to(corner) for corner in window.corners]))
             drawn.line(canvas, "AXIS", to(0j), to(self.pivot))
             for point in (0j, self.pivot):
-                canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+                canvas.add("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
             return drawn
         for curve in _curves(self.picture, paper):
             drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
@@ -70,18 +70,18 @@ class Swing(Record):
         else:
             start, sweep = cmath.phase(self.lowest - self.pivot), -mount.sense * self.picture.cam.motion.extremes()[1]
             if sweep:
-                canvas.arc("CENTRE", Arc(to(self.pivot), paper.scale * mount.arm_length, start, sweep))
+                canvas.add("CENTRE", Arc(to(self.pivot), paper.scale * mount.arm_length, start, sweep))
             for foot, end in _arms(self.picture):
                 drawn.line(canvas, "CONSTRUCTION", to(self.pivot), to(end))
                 drawn.line(canvas, "ORDINATE", to(end), to(foot))
-                canvas.arc("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
+                canvas.add("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
         border = _border(self, window)
         for a, b in border:
             drawn.line(canvas, "GAMMA_TANGENT", to(a), to(b))
         _hatch(canvas, border, paper, window)
         drawn.line(canvas, "DIMENSION", to(self.lowest), to(self.least))
         for point in (0j, self.pivot, self.lowest, self.least):
-            canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+            canvas.add("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
         return drawn
 
     def name(self, labels: Labeller, paper: Paper, window: Box, *, by_hand: bool) -> None:

@@ -56,8 +56,7 @@ def sheet(keys: WedgeKeys) -> Sheet:
     radius_step(page, cam.kind, cam.radius)
     page.add("base_height", keys.base_height)
     if isinstance(cam.mount, Swinging):
-        page.add("arm_length", cam.mount.arm_length)
-        page.add("pivot_height", cam.mount.pivot.imag)
+        page.told(arm_length=cam.mount.arm_length, pivot_height=cam.mount.pivot.imag)
         page.add("start_angle_deg", math.degrees(cam.mount.start_angle))
     coefficient_steps(page, phases)
     _sizes(page, cam)

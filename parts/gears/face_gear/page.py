@@ -60,10 +60,8 @@ def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
     page.add("module", keys.module)
     if keys.pinion_profile_shift_coefficient:
         page.add("profile_shift_coefficient", keys.pinion_profile_shift_coefficient, gear=1)
-    page.add("pressure_angle_deg", keys.pressure_angle_deg)
-    page.add("addendum_coefficient", gear.addendum / keys.module)
-    page.add("dedendum_coefficient", gear.cutter.addendum)
-    page.add("cutter_tip_rounding", gear.cutter.tip_rounding)
+    page.told(pressure_angle_deg=keys.pressure_angle_deg, addendum_coefficient=gear.addendum / keys.module)
+    page.told(dedendum_coefficient=gear.cutter.addendum, cutter_tip_rounding=gear.cutter.tip_rounding)
     if gear.more_teeth:
         page.add("cutter_teeth", gear.shaper.number_of_teeth)
     page.told(circumferential_thinning=keys.circumferential_thinning or None)

@@ -85,8 +85,7 @@ def sheet(table: dict[str, Any], *, zero_only: bool = False) -> Sheet:
         raise refusal(TOPIC, error, keys=keys) from error
     page = Sheet(TOPIC, N_("Generating a tooth profile, device TMM-42"))
     page.section("1) Data of the device")
-    page.add("module", zero.module)
-    page.add("pressure_angle_deg", keys.pressure_angle_deg)
+    page.told(module=zero.module, pressure_angle_deg=keys.pressure_angle_deg)
     page.add("reference_diameter", 2 * zero.reference_radius)
     shifted = zero if zero_only else shifted
     page.add("disk_diameter", 2 * max(zero.tip_radius, shifted.tip_radius))

@@ -73,7 +73,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     paper = Paper(scale, room.middle)
     for number, page in enumerate(pages, 1):
         page.head(sheet_words(language, "generating") + (f" ({number}/{len(pages)})" if alone else ""), _MARGIN)
-    canvas.arc("DISK", _circle(paper, Arc(0j, disk, 0.0, 2 * math.pi)))
+    canvas.add("DISK", _circle(paper, Arc(0j, disk, 0.0, 2 * math.pi)))
     for way in (1, 1j):
         canvas.line("CENTRE", paper.point(-1.04 * disk * way), paper.point(1.04 * disk * way))
     circles = [Circle("DISK", paper.origin, paper.scale * disk)]
@@ -90,7 +90,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
             layer, radius = f"CIRCLE_{name.upper()}", float(getattr(gear, f"{name}_radius"))
             whole = len(gears) == 1
             arc = Arc(0j, radius, 0.0 if whole else turn - 1.5, 2 * math.pi if whole else 3.0)
-            canvas.arc(layer, _circle(paper, arc))
+            canvas.add(layer, _circle(paper, arc))
             circles.append(Circle(layer, paper.origin, paper.scale * radius))
             names.append((gear, index, name, paper.scale * radius, turn))
     for layer in ("RACK", "OUTLINE"):

@@ -239,8 +239,7 @@ def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:
     page.told(worm_form=keys.form, worm_pressure_angle_deg=keys.pressure_angle_deg)
     if keys.form == "ZK1":
         page.add("grinding_wheel_diameter", keys.grinding_wheel_diameter)
-    page.add("addendum_coefficient", keys.addendum_coefficient)
-    page.add("tip_clearance_coefficient", keys.tip_clearance_coefficient)
+    page.told(addendum_coefficient=keys.addendum_coefficient, tip_clearance_coefficient=keys.tip_clearance_coefficient)
     page.add("worm_fillet_coefficient", keys.fillet_coefficient)
     page.told(axial_thinning=keys.axial_thinning or None)
     if keys.number_of_teeth is not None:

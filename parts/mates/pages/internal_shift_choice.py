@@ -197,8 +197,7 @@ def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: 
     formula = show_given(page, keys, pair, rack).replace("{h_a}", "{h_a1}").replace("#", "1")
     if isinstance(pair.root, PinionCutter):
         # in normal modules
-        page.add("cutter_teeth", pair.root.number_of_teeth)
-        page.add("cutter_shift", pair.root.profile_shift_coefficient / pair.share)
+        page.told(cutter_teeth=pair.root.number_of_teeth, cutter_shift=pair.root.profile_shift_coefficient / pair.share)
         page.add("cutter_addendum", pair.root.addendum / pair.share)
         page.add("cutter_tip_rounding", pair.root.tip_rounding / pair.share)
         if keys.second.cutter is None:

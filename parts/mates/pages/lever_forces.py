@@ -434,8 +434,7 @@ class ForcePage:
         page.table("greatest_forces", N_("Greatest reactions in the joints over the turn"), heads, greatest)
         moments = turn.found.moment[turn.held] / 1000
         page.section("Forces over a turn")
-        page.add("greatest_balancing_moment", float(moments.max()))
-        page.add("least_balancing_moment", float(moments.min()))
+        page.told(greatest_balancing_moment=float(moments.max()), least_balancing_moment=float(moments.min()))
         page.add("mean_balancing_moment", float(moments.mean()))
 
     def _notes(self) -> None:

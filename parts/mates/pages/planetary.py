@@ -151,10 +151,8 @@ class _Page:
         page, keys = self.page, self.keys
         page.section("Wanted")
         page.add("wanted_ratio", keys.ratio or 0.0, symbol=self._symbol)
-        page.add("ratio_tolerance_percent", keys.ratio_tolerance_percent)
-        page.add("number_of_satellites", keys.satellites)
-        page.add("least_teeth", keys.least_teeth)
-        page.add("most_teeth", keys.most_teeth)
+        page.told(ratio_tolerance_percent=keys.ratio_tolerance_percent, number_of_satellites=keys.satellites)
+        page.told(least_teeth=keys.least_teeth, most_teeth=keys.most_teeth)
         page.add("sets_found", len(sets))
         fits = [(one, self._fitted(one)) for one in sets[: keys.rows]]
         self._table(fits)

@@ -119,7 +119,7 @@ class LeverDrawing(Record, eq=False):
             for one, two in shown.rods(places[number]):
                 canvas.line(bold.get(number, "POSITION"), places[number][one], places[number][two])
         for name, at in places[0].items():
-            canvas.arc("OUTLINE", Arc(at, _JOINT, 0.0, 2 * math.pi))
+            canvas.add("OUTLINE", Arc(at, _JOINT, 0.0, 2 * math.pi))
             if name in fixed:
                 _support(canvas, at)
         for name, way in shown.blocks.items():
@@ -171,7 +171,7 @@ class LeverDrawing(Record, eq=False):
             if abs(tip) > _SAME and all(abs(tip - other) > _SAME for other in tips):
                 canvas.line("VELOCITY", 0j, tip)
                 tips[tip] = next((name for at, name in known.items() if abs(at - tip) < _SAME), f"s{one.name[-1]}")
-        canvas.arc("OUTLINE", Arc(0j, _JOINT / 2, 0.0, 2 * math.pi))
+        canvas.add("OUTLINE", Arc(0j, _JOINT / 2, 0.0, 2 * math.pi))
         rows, named = [], []
         for one, tip, force in ends:
             symbol = _lowered(one.name)
@@ -257,7 +257,7 @@ def _path(canvas: Canvas, path: Complex, pivots: Iterable[complex]) -> None:
             turned = np.unwrap(np.angle(np.append(spokes, spokes[0])))
             start, sweep = float(turned.min()), float(np.ptp(turned))
             around = abs(turned[-1] - turned[0]) > math.pi
-            canvas.arc("PATH", Arc(pivot, float(np.abs(spokes[0])), start, 2 * math.pi if around else sweep))
+            canvas.add("PATH", Arc(pivot, float(np.abs(spokes[0])), start, 2 * math.pi if around else sweep))
             return
     step = next(k for k in range(max(len(path) // _SPANS, 1), 0, -1) if len(path) % k == 0)
     # by the neighbours on both sides: their errors are far below a rounding of the file
@@ -285,7 +285,7 @@ def _vector(canvas: Canvas, layer: str, start: complex, end: complex) -> None:
 def _plan(plan: Plan, layer: str, heads: tuple[str, str]) -> Piece:
     """Vectors from the pole, those between their ends thinner, and the names of all points."""
     canvas, pole = Canvas(0.0, 0.0, ""), plan.vectors[0].name[0]
-    canvas.arc("OUTLINE", Arc(0j, _JOINT / 2, 0.0, 2 * math.pi))
+    canvas.add("OUTLINE", Arc(0j, _JOINT / 2, 0.0, 2 * math.pi))
     spots: list[tuple[complex, list[str]]] = [(0j, [pole])]
     for vector in plan.vectors:
         start, end = vector.start / plan.scale, vector.end / plan.scale
@@ -310,7 +310,7 @@ def _chain(plan: Plan, heads: tuple[str, str]) -> Piece:
     for _, start, end in ends:
         _vector(canvas, "FORCE", start, end)
     if not canvas.strokes:
-        canvas.arc("OUTLINE", Arc(0j, _JOINT / 2, 0.0, 2 * math.pi))
+        canvas.add("OUTLINE", Arc(0j, _JOINT / 2, 0.0, 2 * math.pi))
     labels = Labeller(canvas, reach(canvas).grown(_ABOUT))
     for name, start, end in ends:
         if abs(end - start) > _SAME:

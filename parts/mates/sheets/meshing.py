@@ -187,12 +187,12 @@ def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
             _mark(canvas, to(point))
     radius = _angle_radius(picture, view)
     phase = cmath.phase(picture.direction)
-    canvas.arc("DIMENSION", Arc(to(pole), radius, phase, math.pi - phase))
+    canvas.add("DIMENSION", Arc(to(pole), radius, phase, math.pi - phase))
 
 
 def _mark(canvas: Canvas, at: complex) -> None:
     """A point, on paper."""
-    canvas.arc("DIMENSION", Arc(at, 0.8, 0.0, 2 * math.pi))
+    canvas.add("DIMENSION", Arc(at, 0.8, 0.0, 2 * math.pi))
 
 
 def _broken(picture: MeshingPicture, view: View) -> dict[int, tuple[complex, complex]]:

@@ -198,8 +198,8 @@ def test_what_is_counted_is_what_stands_in_the_file(tmp_path: Path) -> None:
     canvas.line("CAM", 40 + 70j, 80 + 70j)
     canvas.line("CENTRE", 40 + 70j, 80 + 90j)
     for k in range(3):
-        canvas.arc("OUTLINE", Arc(100 + 100j, 10.0 + k, 0.2, 1.5))
-    canvas.arc("OUTLINE", Arc(100 + 100j, 20.0, 0.0, math.tau))
+        canvas.add("OUTLINE", Arc(100 + 100j, 10.0 + k, 0.2, 1.5))
+    canvas.add("OUTLINE", Arc(100 + 100j, 20.0, 0.0, math.tau))
     curve = fit_spline(Involute(20.0, 0.3, 0.3, 1.9), 1e-3, degree=3, continuity=2).spline
     for layer in ("OUTLINE", "TOOTH_START"):
         canvas.strokes.append(Stroke(layer, curve.placed(Placement2(0.0, 100 + 150j))))

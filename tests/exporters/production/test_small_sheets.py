@@ -42,8 +42,8 @@ def meshing(canvas: Canvas) -> Meshing:
     ends = feet[0] + 0.1 * way, feet[0] + (0.1 + 1.2 * pitch) * way
     canvas.line("LINE_OF_ACTION", *feet)
     canvas.line("ACTIVE_LINE", *ends)
-    canvas.arc("ARC_OF_ACTION", Arc(centres[0], 10.6, 4.0, 1.2 * 0.5))
-    canvas.arc("WORKING_PITCH", Arc(centres[0], 10.6, 1.0, 0.5))
+    canvas.add("ARC_OF_ACTION", Arc(centres[0], 10.6, 4.0, 1.2 * 0.5))
+    canvas.add("WORKING_PITCH", Arc(centres[0], 10.6, 1.0, 0.5))
     return Meshing(((centres[0], 10.0), (centres[1], 15.0)), 12, 1.2 * pitch, 10.6 * 0.6, 10.6 * 0.5, 1.2)
 
 
@@ -53,7 +53,7 @@ def expected() -> Expected:
     for curve in part(4.0):
         draw(canvas, "OUTLINE", [curve], PAPER)
     draw(canvas, "ACTIVE_FLANK", [fit_spline(SPIRAL, 1e-4, degree=3, continuity=2).spline], PAPER)
-    canvas.arc("CIRCLE_BASE", Arc(60 + 70j, 10.0, 0.4, 2 * math.pi))
+    canvas.add("CIRCLE_BASE", Arc(60 + 70j, 10.0, 0.4, 2 * math.pi))
     canvas.line("CENTRE", 40 + 70j, 80 + 70j)
     canvas.line("TANGENT", 30 + 200j, 150 + 200j)
     canvas.write("Wheel", 50 + 250j)

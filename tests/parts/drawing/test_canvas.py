@@ -182,7 +182,7 @@ def test_strokes_are_those_asked_for() -> None:
     canvas = Canvas(100.0, 100.0, "")
     canvas.box("TABLE", Box(1.0, 2.0, 5.0, 4.0))
     canvas.line("FRAME", 0j, 3 + 4j)
-    canvas.arc("TABLE", Arc(0j, 1.0, 0.0, 1.0))
+    canvas.add("TABLE", Arc(0j, 1.0, 0.0, 1.0))
     ends = [
         (s.layer, complex(s.curve.point(s.curve.domain[0])), complex(s.curve.point(s.curve.domain[1])))
         for s in canvas.strokes
@@ -223,7 +223,7 @@ def test_obstacles_are_points_of_all_strokes_half_a_millimetre_apart() -> None:
     assert canvas.obstacles().tolist() == []
     canvas.line("FRAME", 0j, 10 + 0j)
     canvas.line("FRAME", 5j, 0.1 + 5j)
-    canvas.arc("FRAME", Arc(50 + 50j, 10.0, 0.0, math.pi))
+    canvas.add("FRAME", Arc(50 + 50j, 10.0, 0.0, math.pi))
     canvas.line("FRAME", 0j, 3000j)
     found = canvas.obstacles()
     line, short, arc, long = np.split(found, [20, 22, 22 + 62])
