@@ -390,14 +390,11 @@ def _face(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject) -> V
     return View(tuple(strokes), (), tuple(axes), apart_sizes(holes, 0.0, outer), tuple(rounds), from_right=True)
 
 
-def _front(half: HalfSection) -> float:
-    """The direction that looks at the reader in the long view, rad: the first keyway's, or a quarter off where cut."""
-    return half.pockets[0].angle + (math.pi / 2 if half.radii()[0] > 0 else 0.0)
-
-
 def _across(half: HalfSection, pocket: Pocket) -> complex:
     """The direction of a keyway in sections seen from the lower end: the reader's side on the right, up as it is."""
-    return cmath.exp(1j * (_front(half) - pocket.angle))
+    # the first keyway looks at the reader in the long view; where that is cut, a quarter off it
+    front = half.pockets[0].angle + (math.pi / 2 if half.radii()[0] > 0 else 0.0)
+    return cmath.exp(1j * (front - pocket.angle))
 
 
 def _radius(half: HalfSection, pocket: Pocket) -> float:

@@ -70,9 +70,8 @@ def _wedge(subject: Subject) -> PartDrawing:
     left = plate_drawing.edge([s.curve for s in region.outer.segments()], -1, -1j)
     # a hole over the origin has the same size
     told = any(one.side == "below" and abs(one.end.real) < _SAME for one in view.sizes)
-    sizes = (*view.sizes, *([] if told else [Size("origin", left, 0j, "below")]))
-    marked = Note(0j, "O", free=-1 - 1j)
-    view = replace(view, axes=(*view.axes, up), sizes=sizes, notes=(*view.notes, marked))
+    sizes = [] if told else [Size("origin", left, 0j, "below")]
+    view = view.plus(axes=[up], sizes=sizes, notes=[Note(0j, "O", free=-1 - 1j)])
     return replace(made, views=(view,))
 
 
@@ -82,7 +81,7 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
     wheel = Wheel(disk.shape, disk.holes, (radius, radius), None, stands=False)
     section, face, *others = wheel_views(wheel, subject)
     walls: tuple[Profile, ...] = subject.part.section(0.0).region.marks
-    strokes, hatched = list[Stroke](), list(section.hatched)
+    strokes, hatched = list[Stroke](), list[tuple[Line | Arc, ...]]()
     for way in (1, -1):
         low, high = sorted(reach(wall, way * math.pi / 2) for wall in walls)
         corners = [complex(top, low), complex(floor, low), complex(floor, high), complex(top, high)]
@@ -95,17 +94,6 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
             depth = Size("groove_depth", complex(floor, high), complex(top, high), "above")
             words = subject.rough(subject.wishes.flank_roughness)
             rough = tuple(Note(complex((floor + top) / 2, wall), words, is_rough=True) for wall in (low, high))
-    return PartDrawing(
-        (
-            replace(
-                section,
-                strokes=(*section.strokes, *strokes),
-                hatched=tuple(hatched),
-                sizes=(*section.sizes, depth),
-                notes=(*section.notes, *rough),
-            ),
-            replace(face, strokes=(*face.strokes, *((VISIBLE, s.curve) for wall in walls for s in wall.segments()))),
-            *others,
-        ),
-        requirements(subject, *directions(disk.holes, subject, "zero_x")),
-    )
+    section = section.plus(strokes, hatched, sizes=[depth], notes=rough)
+    face = face.plus((VISIBLE, s.curve) for wall in walls for s in wall.segments())
+    return PartDrawing((section, face, *others), requirements(subject, *directions(disk.holes, subject, "zero_x")))

@@ -273,9 +273,11 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
         found = row or _led(left, right, _body(view, scale) if free else box, one.ink())
         if found is not None:
             lines = [*_size_lines(one.canvas)]
+            shelved = [line for leader in found for line in leader.lines()]
+            over = sum(lines_cross(line.start, line.end, *other) for line in shelved for other in lines)
             long = sum(_off(leader.spot, leader.elbow) for leader in found)
             cost = (
-                float(_crossings(found, ())), float(sum(_runs_over(leader, lines) for leader in found)),
+                float(_crossings(found, ())), float(over),
                 0.0 if one is usual and left is sides[0] else long,
             )  # fmt: skip
             best, least = ((one, found), cost) if cost < least else (best, least)
@@ -323,11 +325,6 @@ def _size_lines(canvas: Canvas) -> Iterator[tuple[complex, complex]]:
             line = stroke.curve
             if isinstance(line, Line) and abs(((line.end - line.start) / way).imag) < _LEVEL:
                 yield line.start, line.end
-
-
-def _runs_over(leader: _Leader, lines: Sequence[tuple[complex, complex]]) -> int:
-    """How many lines a leader, or its shelf, crosses."""
-    return sum(lines_cross(one.start, one.end, *other) for one in leader.lines() for other in lines)
 
 
 def _sides(numbers: Sequence[_Numbered], box: Box) -> tuple[list[_Numbered], list[_Numbered]]:

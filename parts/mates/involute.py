@@ -201,15 +201,12 @@ class RackMating(GearMating):
         rolling = Rolling("rack", self.first, self.second, (self.teeth[0], 1), module=Fraction(str(self.module)))
         return Prismatic(self.second), rolling
 
-    @property
-    def _middle_space(self) -> float:
-        """x of the space nearest to the rack's middle, mm."""
-        return 0.0 if self.pair.rack.number_of_teeth % 2 == 0 else self.pair.rack.pitch / 2
-
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The rack beyond the line of centres, its middle space about a tooth of the gear."""
         turned = math.remainder(rotation - direction, self.pair.gear.pitch_angle)
-        along = self.pair.rack_position(turned) - self._middle_space
+        # of an odd number of teeth one stands in the rack's middle
+        space = 0.0 if self.pair.rack.number_of_teeth % 2 == 0 else self.pair.rack.pitch / 2
+        along = self.pair.rack_position(turned) - space
         return centre + cmath.rect(1.0, direction) * complex(self.distance, along), direction + math.pi / 2
 
     def standing(self, first: Pose, second: Pose) -> Standing:

@@ -45,8 +45,11 @@ class PinRingKind(RoundPinKind[PinRingSpec, "PinRing"]):
     name, keys = "pin_ring", PinRingSpec
 
     def thing(self, keys: PinRingSpec, others: Others) -> PinRing:
-        """The ring, checked to hold its pins and to leave a rim."""
-        return _checked(keys)
+        """The ring, checked to hold its pins and to leave a rim; a refusal names the key that alone can cure it."""
+        try:
+            return _whole(keys)
+        except ParameterError as refusal:
+            raise with_remedy(refusal, keys, lambda changed: _whole(changed) is not None) from refusal
 
     def report(self, keys: PinRingSpec, thing: PinRing) -> Report:
         """Its pins and its inside."""
@@ -55,14 +58,6 @@ class PinRingKind(RoundPinKind[PinRingSpec, "PinRing"]):
             circles["inner_diameter"] = 2 * thing.inner_radius
         quantities = {"number_of_pins": float(thing.number_of_pins), "pin_diameter": keys.pin_diameter}
         return Report(circles=circles, quantities=quantities)
-
-
-def _checked(keys: PinRingSpec) -> PinRing:
-    """The ring of the keys; what is wrong with its holes is told of the key that alone can cure it."""
-    try:
-        return _whole(keys)
-    except ParameterError as refusal:
-        raise with_remedy(refusal, keys, lambda changed: _whole(changed) is not None) from refusal
 
 
 def _whole(keys: PinRingSpec) -> PinRing:

@@ -107,11 +107,6 @@ def _base(gear: FaceGear) -> str:
     return "d_b0" if gear.more_teeth else "d_b1"
 
 
-def _angle(gear: FaceGear, share: float, radius: float) -> float:
-    """Pressure angle of the plane of a place of the flank, rad."""
-    return math.acos(float(gear.section_x(0.0) / gear.side(FLANK, share, radius).x))
-
-
 def _limits(page: Sheet, gear: FaceGear) -> None:
     """Undercut, the base circle, pointed tips; two angles are roots of one equation each."""
     page.section(N_("Limits of the face"))
@@ -126,7 +121,8 @@ def _limits(page: Sheet, gear: FaceGear) -> None:
                  f"arccos(2 * {{h_t}} / {{{base}}})")  # fmt: skip
         limit = f"sqrt(({{d_b1}} * {{u}} / cos({{alpha_l}}))**2 + ({{{base}}} * sin({{alpha_l}}))**2)"
         page.add("base_limit_diameter", 2 * gear.form_radius(0.0), limit)
-    angle = _angle(gear, 1.0, gear.pointed_radius)
+    # of the plane of the flank's pointed end
+    angle = math.acos(float(gear.section_x(0.0) / gear.side(FLANK, 1.0, gear.pointed_radius).x))
     page.add("pointed_angle_deg", math.degrees(angle), "", _LITVIN)
     page.add("pointed_plane", float(gear.section_x(angle)), plane % "alpha_p")
     length = float(gear.tip_length(np.asarray(angle)))
