@@ -304,8 +304,8 @@ def _section(layers: Layers, plane: float | None, title: str, cuts: Sequence[Cut
         for c in layer.contours if c.circle and (plane is None or abs(c.circle[0].real - plane) < _NONE)
     }  # fmt: skip
     centre = [Line(complex(low, y), complex(high, y)) for low, high, y in sorted(axes)]
-    return View(tuple((VISIBLE, line) for line in _joined(lines)), tuple(bars), tuple(_joined(centre)), tuple(sizes),
-                title=title, cuts=tuple(cuts))  # fmt: skip
+    strokes = tuple((VISIBLE, line) for line in _joined(lines, _JUMP * size))
+    return View(strokes, tuple(bars), tuple(_joined(centre, _NONE)), tuple(sizes), title=title, cuts=tuple(cuts))
 
 
 def _breaks(pieces: Iterable[_Piece], x: float) -> list[float]:
@@ -340,14 +340,16 @@ def _parted(one: _Behind, two: _Behind, size: float) -> bool:
     )
 
 
-def _joined(lines: Iterable[Line]) -> list[Line]:
-    """Level and upright lines, those that go on as one."""
+def _joined(lines: Iterable[Line], near: float) -> list[Line]:
+    """Level and upright lines, those that go on, or lie so near to each other, mm, as one."""
     rows: dict[tuple[bool, float], list[Span]] = {}
     for line in lines:
         level = abs(line.start.imag - line.end.imag) < _NONE
         at = round(line.start.imag if level else line.start.real, _DIGITS)
         ends = (line.start.real, line.end.real) if level else (line.start.imag, line.end.imag)
-        rows.setdefault((level, at), []).append((min(ends), max(ends)))
+        # on paper these are one
+        row = next((row for row in rows if row[0] == level and abs(row[1] - at) < near), (level, at))
+        rows.setdefault(row, []).append((min(ends), max(ends)))
     found = []
     for (level, at), row in rows.items():
         low, high = min(row)

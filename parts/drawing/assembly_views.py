@@ -27,6 +27,8 @@ from parts.drawing.working import AXIS, VISIBLE
 
 # what is parallel, what is one place, mm
 _PARALLEL, _SAME, _DIGITS = 1e-9, 1e-6, 6
+# digits of places, mm, that a drawing tells apart
+_PAPER = 4
 # places that are tried for a leader's end, across a part
 _GRID, _FEW, _ENOUGH = 17, 12, 48
 T = TypeVar("T")
@@ -353,7 +355,7 @@ def _stroke_place(stroke: Stroke) -> tuple[object, ...]:
 def _place(curve: Curve) -> tuple[object, ...]:
     """Where a line lies, either way round."""
     low, high = curve.domain
-    points = np.round(curve.point(np.linspace(low, high, 5)), _DIGITS) + 0.0
+    points = np.round(curve.point(np.linspace(low, high, 5)), _PAPER) + 0.0
     return min(tuple(points.tolist()), tuple(points[::-1].tolist()), key=lambda row: [(p.real, p.imag) for p in row])
 
 

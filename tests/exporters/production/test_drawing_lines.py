@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import msgspec
 import pytest
 
 from exporters.drawings.write import write_sheet_svg
@@ -188,6 +189,14 @@ def test_dimension_lines_stand_beyond_numbers_where_leaders_would_cross_them(tmp
     (job,) = plan_build(scene, "laser_gear_set", [], []).sheets
     job.write({}, tmp_path / job.path)
     assert run_over(tmp_path / job.path) == 0
+
+
+def test_edges_that_are_one_on_paper_are_drawn_once(tmp_path: Path) -> None:
+    """The posts of a cage behind its section: edges 0.0003 mm from each other were two lines."""
+    cage = msgspec.to_builtins(load_scene("power_module").parts["large_cage"])
+    (job,) = jobs({key: cage[key] for key in ("kind", "layers")}, formats=("dxf",))
+    write_sheet_svg(tmp_path / "s.svg", job.canvas)
+    assert faults(tmp_path / "s.svg") == []
 
 
 def test_the_sign_on_the_seats_of_a_ring_keeps_off_dimension_lines(tmp_path: Path) -> None:
