@@ -348,8 +348,8 @@ def _joined(lines: Iterable[Line], near: float) -> list[Line]:
         at = round(line.start.imag if level else line.start.real, _DIGITS)
         ends = (line.start.real, line.end.real) if level else (line.start.imag, line.end.imag)
         # on paper these are one
-        row = next((row for row in rows if row[0] == level and abs(row[1] - at) < near), (level, at))
-        rows.setdefault(row, []).append((min(ends), max(ends)))
+        one = next((k for k in rows if k[0] == level and abs(k[1] - at) < near), (level, at))
+        rows.setdefault(one, []).append((min(ends), max(ends)))
     found = []
     for (level, at), row in rows.items():
         low, high = min(row)
