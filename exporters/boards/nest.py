@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 
 from exporters.boards.slide import slid
 from geometry.base.record import Draft, Record, replace
+from geometry.curves.curve import Flags, Indices
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-Flags = NDArray[np.bool_]
 # flags (x, y), eight to a byte along y, the first one the highest bit; a map's rows are whole words
 Bits = NDArray[np.uint8]
 # cells along a square of them that is looked at as a whole
@@ -472,7 +472,7 @@ def _sums(first: Flags, second: Flags) -> Flags:
     return (np.cumsum(over)[:cells] > 0).reshape(size)
 
 
-def _runs(cover: Flags, width: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _runs(cover: Flags, width: int) -> tuple[Indices, Indices]:
     """Where runs of taken cells along y begin, and where they have ended, in rows of a width one after the other."""
     steps = np.diff(np.pad(cover, ((0, 0), (1, 1))).view(np.int8), axis=1)
     begin, end = (np.nonzero(steps == side) for side in (1, -1))

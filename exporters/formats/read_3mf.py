@@ -8,10 +8,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
 from exporters.formats.readback import MOST_READ_BYTES, ReadMesh
+from geometry.curves.curve import Real
 from parts.base.readback import ReadError, refuse_if
 
 # numbers as text pack five to ten times; a small package may do as it likes
@@ -87,7 +87,7 @@ def _base_colour(item: ElementTree.Element, bases: dict[str | None, list[str]]) 
     return shades[int(number)] if number.isdigit() and int(number) < len(shades) else None
 
 
-def _transform(item: ElementTree.Element) -> NDArray[np.float64]:
+def _transform(item: ElementTree.Element) -> Real:
     """(3, 4) of a build item; 3MF writes four rows of three that multiply row vectors."""
     text = item.get("transform")
     if text is None:

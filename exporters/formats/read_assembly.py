@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from geometry.base.record import Record
+from geometry.curves.curve import Real
 from parts.base.readback import ReadBack
 
 
@@ -27,7 +25,7 @@ class Occurrence(NamedTuple):
 
     name: str
     prototype: int
-    place: NDArray[np.float64]
+    place: Real
     within: str | None = None
 
 

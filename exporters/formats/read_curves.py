@@ -8,12 +8,10 @@ from __future__ import annotations
 from functools import cache, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_part21 import Index
 from geometry.base.record import Record
-
-Flags = NDArray[np.bool_]
+from geometry.curves.curve import Flags, Real
 
 # nodes on a span: Gauss and Lobatto's rule is exact up to degree 21, as high as a spline's volume goes
 _NODES = 12

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.readback import Loop, ReadOutlines
 from geometry.base.record import Record
+from geometry.curves.curve import Real
 from parts.base.readback import ReadError, refuse_if
 
 _MILLIMETRES = "4"
@@ -59,7 +60,7 @@ class Pairs(Record):
         found = np.flatnonzero(self.codes == code)
         return self.values[found[0]] if len(found) else default
 
-    def numbers(self, code: int) -> NDArray[np.float64]:
+    def numbers(self, code: int) -> Real:
         """All values with a group code, as numbers."""
         return np.array([self.values[i] for i in np.flatnonzero(self.codes == code)], dtype=np.float64)
 

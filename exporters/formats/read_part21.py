@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
+from geometry.curves.curve import Real
 from parts.base.psv import rows_of
 from parts.base.readback import ReadError, refuse_if
 
 Index = NDArray[np.int64]
-Real = NDArray[np.float64]
 Numbers = TypeVar("Numbers", Index, Real)
 # texts of what varies in an entity with lists
 Row = tuple[bytes, ...]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh
+from geometry.curves.curve import Real
 from parts.base.readback import ReadError, refuse_if
 
 
@@ -36,7 +36,7 @@ def read_stl(file: Path) -> ReadMesh:
     return ReadMesh(corners[first].astype(float), vertex.reshape(-1, 3))
 
 
-def _check_normals(corners: NDArray[np.float64], normals: NDArray[np.float64]) -> None:
+def _check_normals(corners: Real, normals: Real) -> None:
     """Normals must agree with their corners; STL allows zero for "not given"."""
     true = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.linalg.norm(true, axis=1) * np.linalg.norm(normals, axis=1)

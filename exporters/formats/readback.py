@@ -111,7 +111,7 @@ class ReadOutlines(ReadFlat):
 class ReadMesh(Record):
     """Distinct vertices (n, 3) and triangles (k, 3); name, colour (#rrggbb), title: where a format has such."""
 
-    vertices: NDArray[np.float64]
+    vertices: Real
     triangles: NDArray[np.int64]
     name: str | None = None
     colour: str | None = None

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 from geometry.curves.line_arc import lines_cross
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
@@ -109,7 +109,7 @@ class Tops:
         near = (set(cells.ravel().tolist()) for cells in (beside, middle))
         return int(under == {-1} and any({number} <= seen <= {number, -1} for seen in near))
 
-    def plain(self, boxes: Real) -> NDArray[np.bool_]:
+    def plain(self, boxes: Real) -> Flags:
         """Which boxes (left, top, right, bottom along the last axis) are whole in the picture, over no edge."""
         begin, end = self._picture
         left, top, right, low = np.moveaxis(self._cells(boxes), -1, 0)
@@ -219,7 +219,7 @@ def _crossed(label: Label, taken: Real, lines: Sequence[tuple[complex, complex]]
     return through + sum(lines_cross(*label.line, *line) for line in lines)
 
 
-def _runs(start: complex, end: complex, boxes: Real) -> NDArray[np.bool_]:
+def _runs(start: complex, end: complex, boxes: Real) -> Flags:
     """Through which boxes (rows of left, top, right, bottom) a line runs."""
     ways = np.array([end.real - start.real, end.imag - start.imag])
     # what is no way at all is as good as a very short one

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
 from exporters.verification.judge import held, probed, said_failures, same_shade
 from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.record import Record
+from geometry.curves.curve import Real
 from parts.base.part import Part
 from parts.base.readback import ReadBack
 from parts.base.texts import N_, fault, fault_of, unless
@@ -114,7 +114,7 @@ def _name_failures(what: str, found: list[str], expected: list[str]) -> list[str
     return failures
 
 
-def _displacement(placed: NDArray[np.float64], place: NDArray[np.float64], reach: float) -> float:
+def _displacement(placed: Real, place: Real, reach: float) -> float:
     """How far a point of the part may be off its place at most, mm."""
     off = placed - place
     return float(np.linalg.norm(off[:, 3]) + np.linalg.norm(off[:, :3], 2) * reach)

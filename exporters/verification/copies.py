@@ -9,9 +9,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_part21 import Index
 from exporters.formats.read_solid import GAP, Model
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.body import Body
 from parts.base.texts import N_, unless

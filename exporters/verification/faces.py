@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exporters.formats.read_solid import EXTRUSION, ROUND, SPLINE
 from exporters.formats.read_step import ReadSolid
@@ -18,7 +17,7 @@ from exporters.verification.area import told_verdict
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, edge_lengths, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Indices, Real
 from parts.base.texts import N_, unless
 
 if TYPE_CHECKING:
@@ -83,7 +82,7 @@ def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     return worst, int(np.count_nonzero(~has))
 
 
-def _turned(mesh: ReadMesh, count: int, cell: float) -> tuple[NDArray[np.intp], Real]:
+def _turned(mesh: ReadMesh, count: int, cell: float) -> tuple[Indices, Real]:
     """Of each triangle one that it may be, turned by a part of 1 / ``count`` turn, and how far off its corners are, mm.
 
     Which one that is need not be the best choice: nothing but the distance is relied on.
@@ -111,7 +110,7 @@ def _turned(mesh: ReadMesh, count: int, cell: float) -> tuple[NDArray[np.intp], 
     return like, off
 
 
-def _measured(mesh: ReadMesh, which: NDArray[np.intp], body: Faced) -> tuple[Real, Real, NDArray[np.bool_]]:
+def _measured(mesh: ReadMesh, which: Indices, body: Faced) -> tuple[Real, Real, Flags]:
     """Greatest distances of samples of some triangles from the face that each lies in, mm, and which faces have any.
 
     Between them: the same from such faces alone as all turns that ``mesh_deviation`` makes bring onto themselves.
@@ -128,7 +127,7 @@ def _measured(mesh: ReadMesh, which: NDArray[np.intp], body: Faced) -> tuple[Rea
     near = worst <= _AS_WELL * worst.min(axis=0) + _SURE * body.reach()
     most = max(face.turns for face in faces)
     found, bounds = np.full((2, len(triangles)), np.inf)
-    own: list[tuple[NDArray[np.intp], Real]] = []
+    own: list[tuple[Indices, Real]] = []
     for index, face in enumerate(faces):
         mine = np.flatnonzero(near[index])
         # an edge between two triangles is looked at once

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from exporters.formats.readback import Loop, ReadMesh
 from exporters.verification.chamfers import chamfer_deviation, slice_points
 from exporters.verification.outlines import verify_loops
 from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures
+from geometry.curves.curve import Flags, Real
 from geometry.plane.measure import profile_area, profile_length
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments
@@ -84,7 +84,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
-def _within_aslant(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _within_aslant(body: Body, z: Real) -> Flags:
     """Which heights lie between the ends of a wall that does not stand upright."""
     found = np.zeros(len(z), dtype=bool)
     for wall in body.walls:
@@ -94,7 +94,7 @@ def _within_aslant(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
     return found
 
 
-def _stands(mesh: ReadMesh, triangles: Triangles) -> NDArray[np.bool_]:
+def _stands(mesh: ReadMesh, triangles: Triangles) -> Flags:
     """Which triangles have an upright edge."""
     corners = (mesh.vertices[:, 0] + 1j * mesh.vertices[:, 1])[triangles]
     return np.asarray(np.any(corners == np.roll(corners, 1, axis=1), axis=1))
@@ -109,7 +109,7 @@ def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
     return found
 
 
-def _cap_failures(body: Body, corners: NDArray[np.float64], declared: float) -> list[str]:
+def _cap_failures(body: Body, corners: Real, declared: float) -> list[str]:
     """Flat triangles against the caps: level by level, looking the right way, of the right area."""
     doubled, heights = doubled_normals(corners)[:, 2], corners[:, 0, 2]
     expected: dict[tuple[float, bool], list[float]] = {}

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from exporters.formats.read_curves import lobatto, spans_of
-from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_part21 import Index
 from exporters.formats.read_solid import EXTRUSION, LEVEL, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model
+from geometry.curves.curve import Real
 from parts.base.readback import refuse_if
 
 # which of the nodes on the way up are looked at: few heights, each of which may need a section of its own

@@ -6,18 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh, closed_chains
+from geometry.curves.curve import Flags, Real
 from parts.base.readback import refuse_if
 from parts.base.texts import fault
 
 Triangles = NDArray[np.int64]
 
 
-def doubled_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def doubled_normals(corners: Real) -> Real:
     """Twice the area of each triangle along its normal, (n, 3)."""
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
-def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def edge_lengths(corners: Real) -> Real:
     """Of each triangle, (n, 3)."""
     return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
 
@@ -40,7 +41,7 @@ def topology_failures(mesh: ReadMesh) -> list[str]:
     return []
 
 
-def chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> list[list[int]]:
+def chains(triangles: Triangles, on_level: Flags, count: int) -> list[list[int]]:
     """Closed chains of the triangles' edges that lie on a level, as vertex numbers."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     edges = edges[on_level[edges].all(axis=1)]

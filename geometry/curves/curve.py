@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Indices = NDArray[np.intp]
 
 _CUSP_SAMPLES = 257
 _NO_KNOTS: Real = np.zeros(0)

@@ -9,10 +9,9 @@ from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.record import Record
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Real
 from geometry.solids.charts import TURN, Chart, Patch, along_edges, arcs, charts, edge_rows, patch_of, span_shares
 from geometry.solids.faces import Circular, Edges, Faces, Frame, Solid, Sphere, Spline, SplineSurface, Straight, Torus
 from geometry.solids.unrolled import Side, unrolled
@@ -26,7 +25,7 @@ _ABOVE, _ALIKE = 0.2, 1e-9
 _ROUNDS, _NARROWED, _SETTLED, _TRIED = 60, 0.5, 1e-6, 9
 
 Places = Callable[[Real, Real], Real]
-Held = Callable[[Real, Real], NDArray[np.bool_]]
+Held = Callable[[Real, Real], Flags]
 
 
 class Extent(Record, eq=False):
@@ -165,7 +164,7 @@ def _bent(solid: Solid, faces: Faces, best: Real) -> list[_Piece]:
     return found
 
 
-def _within(sides: list[Side], u: Real, v: Real) -> NDArray[np.bool_]:
+def _within(sides: list[Side], u: Real, v: Real) -> Flags:
     """Which places (n,) lie inside their bounds: by how often these pass below them."""
     below = np.zeros(len(u), dtype=np.int64)
     for side in sides:
@@ -182,7 +181,7 @@ def _within(sides: list[Side], u: Real, v: Real) -> NDArray[np.bool_]:
 def _raise(best: Real, piece: _Piece, slack: float, seen: set[tuple[int, bytes]]) -> None:
     """Raises the best (7,) to a piece's peaks; copies of what was ``seen`` have the same."""
     shape, most = piece.measured.shape[:2], _most(piece.measured)
-    on: NDArray[np.bool_] | None = None
+    on: Flags | None = None
     for k in np.flatnonzero(most > best + slack).tolist():
         own = piece.measured[..., k]
         key = k, np.round(own, 9).tobytes()
@@ -239,7 +238,7 @@ def _peak(piece: _Piece, k: int, row: int, column: int) -> float:
     return float(found.max()) if _is_held(piece, np.array(middle[:1]), np.array(middle[1:]))[0] else -np.inf
 
 
-def _is_held(piece: _Piece, u: Real, v: Real) -> NDArray[np.bool_]:
+def _is_held(piece: _Piece, u: Real, v: Real) -> Flags:
     """Whether places (n,) are on a piece: those at an end are looked at beside it, where digits do not decide."""
     if piece.held is None:
         return np.ones(len(u), dtype=bool)

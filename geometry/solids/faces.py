@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 
 Index = NDArray[np.intp]
 
@@ -110,7 +110,7 @@ class SplineSurface(Record, eq=False):
 
 Surface: TypeAlias = Plane | Cylinder | Cone | Torus | Sphere | Extrusion | SplineSurface
 # edges (n, m) in order, the face on the left as seen from outside, and which of them (m,) run forwards
-Loop: TypeAlias = tuple[Index, NDArray[np.bool_]]
+Loop: TypeAlias = tuple[Index, Flags]
 
 
 # edges (n,) about faces, and whether they run forwards

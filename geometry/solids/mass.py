@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.gauss import panels
 from geometry.base.record import Record, made_once
@@ -28,8 +27,8 @@ class Moments(Record):
     """
 
     volume: float
-    centre: NDArray[np.float64]
-    inertia: NDArray[np.float64]
+    centre: Real
+    inertia: Real
 
 
 def body_moments(body: Body) -> Moments:

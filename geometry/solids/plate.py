@@ -12,13 +12,12 @@ from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import moved
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Complex, Real, end_point, start_point
+from geometry.curves.curve import Complex, Flags, Real, end_point, start_point
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.plane.measure import distance_to_plain
 from geometry.plane.offset_region import OffsetRegion
@@ -332,7 +331,7 @@ def crosses_itself(edges: Sequence[Edge]) -> bool:
     return False
 
 
-def boxes_meet(low: Complex, high: Complex, lowest: Complex, highest: Complex) -> NDArray[np.bool_]:
+def boxes_meet(low: Complex, high: Complex, lowest: Complex, highest: Complex) -> Flags:
     """Which boxes (n,) have a place in common with which others (m,), by their corners: (n, m)."""
     found = (low.real[:, None] <= highest.real) & (high.real[:, None] >= lowest.real)
     return found & (low.imag[:, None] <= highest.imag) & (high.imag[:, None] >= lowest.imag)

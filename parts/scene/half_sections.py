@@ -14,11 +14,10 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile
 from geometry.base.record import Record, made_once, replace
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Indices, Real
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.worms.body import WormBody
 from geometry.solids.body import Body
@@ -171,7 +170,7 @@ class Sectioned:
         return np.array([(low, high) for low, high, _ in self.layers])
 
     @cached_property
-    def _corners(self) -> tuple[Real, NDArray[np.intp]]:
+    def _corners(self) -> tuple[Real, Indices]:
         """Those of all layers, one after the other, mm, and where those of each begin."""
         import shapely
 

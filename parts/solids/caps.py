@@ -20,6 +20,8 @@ from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour
 
 Triangles = NDArray[np.int64]
+# triangles, and the points that were added for them
+Filled = tuple[Triangles, Complex]
 # of the grid on which vertices stand, in a reach of 1
 _GRID_DIGITS = 8
 # decimals of angles (rad) and heights (mm) that are compared
@@ -31,7 +33,7 @@ def grid_decimals(reach: float) -> int:
     return _GRID_DIGITS - math.floor(math.log10(reach) + 1e-9)
 
 
-def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, Complex]:
+def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> Filled:
     """Triangles of the plane region between chords, and the points that were added to the contours' own.
 
     Indices count the outer contour's vertices, period after period, then those of each hole, then the added
@@ -76,9 +78,7 @@ def _area(polygon: Complex) -> float:
 _NONE = np.zeros(0, dtype=complex)
 
 
-def _by_teeth(
-    outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]
-) -> tuple[Triangles, Complex]:
+def _by_teeth(outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]) -> Filled:
     """Teeth above the chords between their spaces, then the core within those chords."""
     teeth, ring = _teeth(outer)
     ring = rings[0][ring]
@@ -92,9 +92,7 @@ def _by_teeth(
     return np.concatenate([*teeth, core]), _NONE
 
 
-def _whole(
-    outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]
-) -> tuple[Triangles, Complex]:
+def _whole(outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]) -> Filled:
     return library_triangles(points, rings), _NONE
 
 
@@ -162,9 +160,7 @@ def aligned_bore(outline: Contour, bore: Contour) -> Contour:
     return Contour(start * np.exp(-2j * np.pi / count * np.arange(count)), np.zeros(count))
 
 
-def _by_sectors(
-    outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]
-) -> tuple[Triangles, Complex]:
+def _by_sectors(outer: Contour, holes: Sequence[Contour], points: Complex, rings: list[Triangles]) -> Filled:
     """One whole sector between an aligned bore and a tooth, clipped and placed."""
     size, count = len(outer.vertices), outer.count
     if count < 3 or len(holes) != 1 or len(holes[0]) % count or not is_round(holes[0]):
@@ -280,14 +276,14 @@ def _annulus(points: Complex, outer: Triangles, inner: Triangles) -> Triangles:
     return np.concatenate([outwards, inwards])
 
 
-def _middle_angles(ring: Complex) -> NDArray[np.float64]:
+def _middle_angles(ring: Complex) -> Real:
     """Increasing angles of the middles of a ring's edges, twice as large, the ring starting near angle 0."""
     start = np.mod(np.angle(ring), 2 * np.pi)
     # rounded: corners that stand one behind the other are a tie on any machine
     return np.round(start + np.append(start[1:], start[0] + 2 * np.pi), _ANGLE_DIGITS)
 
 
-def _cross(points: Complex, triangles: Triangles) -> NDArray[np.float64]:
+def _cross(points: Complex, triangles: Triangles) -> Real:
     """Twice the signed area of each triangle."""
     a, b, c = points[triangles].T
     return (np.conj(b - a) * (c - a)).imag

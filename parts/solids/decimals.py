@@ -8,11 +8,11 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Real
 from geometry.solids.faces import Index
 
 # codes of letters (n, k), or of (k,) that are the same in all rows, and which of them are written
-_Letters: TypeAlias = tuple[NDArray[np.uint8], "NDArray[np.bool_] | bool"]
+_Letters: TypeAlias = tuple[NDArray[np.uint8], "Flags | bool"]
 
 _ZERO, _AT_ONCE = ord("0"), 20_000
 
@@ -46,7 +46,7 @@ def _constant(text: str) -> _Letters:
     return np.frombuffer(text.encode("ascii"), np.uint8), True
 
 
-def _whole(numbers: Index, least: int) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+def _whole(numbers: Index, least: int) -> tuple[NDArray[np.uint8], Flags]:
     """Numbers (n,) of no sign, with at least so many digits."""
     width = max(len(str(numbers.max())), least)
     letters, written = np.empty((width, len(numbers)), np.uint8), np.ones((width, len(numbers)), bool)

@@ -13,12 +13,11 @@ from collections.abc import Sequence
 from types import UnionType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.errors import ConvergenceError, ThinWallError
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 from geometry.solids.charts import (
     Chart,
     Patch,
@@ -377,7 +376,7 @@ class _Mesher:
             own = dict(zip(ends, zip(edges[rows].T, senses[rows[0]].tolist(), strict=True), strict=True))
             self._patch_group(own, patch and patch.rows(rows), flip=not faces.along)
 
-    def _begin(self, edges: Triangles, senses: NDArray[np.bool_], patch: Patch | None, end: int) -> Triangles:
+    def _begin(self, edges: Triangles, senses: Flags, patch: Patch | None, end: int) -> Triangles:
         """The place in each loop of the edge that is one end of the patch: along u, at v's lower end, is the first."""
         ends = np.empty((*edges.shape, 2, 3))
         for k in np.unique(self.bundle[edges]).tolist():

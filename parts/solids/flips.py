@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.errors import ThinWallError
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 from parts.solids.caps import Triangles, library_triangles, numbered
 
 # how near to the bounds cells may come, and how closely these are sampled for it, in cells
@@ -80,7 +79,7 @@ def _cross(a: Complex, b: Complex, c: Complex) -> Real:
     return np.asarray((np.conj(b - a) * (c - a)).imag)
 
 
-def _in_circle(a: Complex, b: Complex, c: Complex, d: Complex) -> NDArray[np.bool_]:
+def _in_circle(a: Complex, b: Complex, c: Complex, d: Complex) -> Flags:
     """Whether d lies within the circle about the triangle a, b, c, by more than rounding."""
     p, q, r = a - d, b - d, c - d
     squares = [np.abs(x) ** 2 for x in (p, q, r)]

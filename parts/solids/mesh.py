@@ -9,13 +9,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile, approximate_together
 from geometry.base.errors import ThinWallError
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
 from geometry.solids.chamfer import chamfer_bow, cut_chamfers, level_shares
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 class Mesh(Record):
     """Vertices (n, 3) float, mm; triangles (k, 3) int, counter-clockwise seen from outside."""
 
-    vertices: NDArray[np.float64]
+    vertices: Real
     triangles: Triangles
 
 
@@ -223,7 +222,7 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
     return Mesh(np.round(np.concatenate(pieces), grid_decimals(body.section_reach())) + 0.0, np.concatenate(triangles))
 
 
-def _wall_triangles(count: int, lower: int, upper: int, rising: NDArray[np.bool_] | None = None) -> Triangles:
+def _wall_triangles(count: int, lower: int, upper: int, rising: Flags | None = None) -> Triangles:
     """Two triangles an edge between loops whose vertices begin at two indices; material lies left of them.
 
     ``rising`` (count,): which edges take the diagonal from their lower start to their upper end; all without it.

@@ -12,6 +12,7 @@ import numpy as np
 from geometry.approximation.chords import approximate_profile
 from geometry.base.findings import Finding
 from geometry.base.record import replace
+from geometry.curves.curve import Real
 from geometry.plane.letters import HELD, Stroke, lettered
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
@@ -19,7 +20,6 @@ from geometry.solids.plate import PlateOutline, rounded
 
 if TYPE_CHECKING:
     import shapely
-    from numpy.typing import NDArray
 
 # width of an engraved line; of letters: least height (eight lines) and greatest, mm, part of the widest clear circle
 STROKE = 0.25
@@ -99,7 +99,7 @@ class _Way:
         self.turn = turn
         spin = np.exp(-1j * turn)
 
-        def turned(xy: NDArray[np.float64]) -> NDArray[np.float64]:
+        def turned(xy: Real) -> Real:
             plane = (xy[:, 0] + 1j * xy[:, 1]) * spin
             return np.column_stack([plane.real, plane.imag])
 

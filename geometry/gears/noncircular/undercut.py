@@ -11,12 +11,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.errors import UndercutError
 from geometry.base.roots import halved
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Indices, Real
 from geometry.gears.noncircular.curves import RolledFillet
 from geometry.gears.noncircular.pitch_line import PitchLine
 
@@ -39,7 +38,7 @@ class Flanks(NamedTuple):
     radius: float
     at_tip: Real
 
-    def chosen(self, rows: NDArray[np.intp] | tuple[slice, None]) -> Flanks:
+    def chosen(self, rows: Indices | tuple[slice, None]) -> Flanks:
         """Some of them."""
         return self._replace(
             crossing=self.crossing[rows], sign=self.sign[rows], centre=self.centre[rows], at_tip=self.at_tip[rows]
@@ -150,7 +149,7 @@ def _near_cusps(part: Flanks, joint: Real, turning: Real, limit: Real) -> tuple[
     return start, contact
 
 
-def _joined(flanks: Flanks, start: Real, contact: Real) -> NDArray[np.bool_]:
+def _joined(flanks: Flanks, start: Real, contact: Real) -> Flags:
     """Whether fillets end where flanks start, to the digits of the points and of the way along the pitch line."""
     ends, starts = flanks.fillet(contact)[0], flanks.flank(start)[0]
     size = max(float(np.max(np.abs(starts))), float(np.max(np.abs(flanks.crossing))))

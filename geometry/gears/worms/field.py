@@ -10,11 +10,10 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_roots, halved
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Real
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
 
@@ -62,7 +61,7 @@ class Field(Record):
     def lines(self, slides: Real) -> list[tuple[int, float, float]]:
         """Lines of contact at slides (m,): which of them, and the heights between which each goes on, mm."""
 
-        def reached(heights: Real, slide: Real) -> NDArray[np.bool_]:
+        def reached(heights: Real, slide: Real) -> Flags:
             first, last = (self.touching(heights, radii).slid for radii in self.edges(heights))
             return np.asarray((first <= slide) & (slide <= last))
 

@@ -13,12 +13,12 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.worm import Worm
 
@@ -64,7 +64,7 @@ class Cut(Record, eq=False, dict=True):
     along: Real
     touching: Complex
     into: tuple[Real, Real, Real]
-    found: NDArray[np.bool_]
+    found: Flags
 
     @property
     def distance(self) -> Real:
@@ -72,7 +72,7 @@ class Cut(Record, eq=False, dict=True):
         return np.abs(self.touching)
 
     @property
-    def runs_off(self) -> NDArray[np.bool_]:
+    def runs_off(self) -> Flags:
         """Where the contact has run off to infinity: ``steepness`` is not below 0."""
         return ~(self.into[0] < 0)
 

@@ -15,18 +15,18 @@ from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_roots
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Indices, Real
 from geometry.curves.line_arc import Line
 from geometry.gears.worms.hob import Cut, Hob, Meridian
 from geometry.plane.profile import Label, Profile, Segment
 
 # of a search
-_Looked = tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]
+_Looked = tuple[Real, Real, Indices, Indices]
 
 # radii of the thread, where few heights are looked at too, and angles of its rounding at which a side is looked for
 _RADII, _FEW_RADII, _ANGLES, _FIRST_STEP = 257, 97, 129, 1e-7
@@ -92,11 +92,11 @@ class Side(Record, eq=False):
     inner: Real
     normal: Real
     outer: Real
-    undercut: NDArray[np.bool_]
+    undercut: Flags
     hurry: tuple[Real, Real]
-    all_fillet: NDArray[np.bool_]
+    all_fillet: Flags
 
-    def only(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> Side:
+    def only(self, which: Flags | Indices) -> Side:
         """The same at some of the heights."""
         flags = (self.undercut[which], (self.hurry[0][which], self.hurry[1][which]), self.all_fillet[which])
         return Side(self.heights[which], self.inner[which], self.normal[which], self.outer[which], *flags)
@@ -288,7 +288,7 @@ class WormTeeth(Record, dict=True):
             raise NoTooth("worm_wheel_undercut")
         return side
 
-    def _hurry(self, z: Real, inner: Real, normal: Real, outer: Real) -> tuple[tuple[Real, Real], NDArray[np.bool_]]:
+    def _hurry(self, z: Real, inner: Real, normal: Real, outer: Real) -> tuple[tuple[Real, Real], Flags]:
         """How fast both parts go at their beginnings beside their ends, and whether the contact goes on there."""
         hob = self.hob
         root, end = hob.cut(hob.round(np.full(len(z), np.pi / 2)), z), hob.cut(hob.round(normal), z)
@@ -328,7 +328,7 @@ class WormTeeth(Record, dict=True):
             for flank, side, at in zip(own.plane.T, fillet.T, below.T, strict=True)
         )
 
-    def _ridge(self, z: Real, lower: Side) -> tuple[Real, Real, NDArray[np.bool_], Real, Real]:
+    def _ridge(self, z: Real, lower: Side) -> tuple[Real, Real, Flags, Real, Real]:
         """Where lower sides meet the upper ones below the tip: as in ``Side`` normals, ends, and which parts meet."""
         sides = lower, self._plain(-z)
         rows = [np.concatenate([part(side, _RIDGE).plane for part in (self.fillet, self.flank)]) for side in sides]
@@ -717,7 +717,7 @@ class WormTeeth(Record, dict=True):
         return self._turns(lambda z: self._search(z)[2] > 0, self._levels, self._looked[2] > 0, settled)
 
     def _turns(
-        self, holds: Callable[[Real], NDArray[np.bool_]], levels: Real, held: NDArray[np.bool_], settled: float = 0.0
+        self, holds: Callable[[Real], Flags], levels: Real, held: Flags, settled: float = 0.0
     ) -> tuple[float, ...]:
         """Heights at which what is ``held`` at some turns over, known to a part of the width, mm."""
         settled = settled or (_NEARLY if self.loose else _CLOSE)

@@ -10,11 +10,10 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.gauss import gauss_rule, panels
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Indices, Real
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import BEYOND, Side, WormTeeth
 from geometry.plane.profile import Profile
@@ -170,7 +169,7 @@ class WormWheel(Record, dict=True):
         way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
         slope = np.maximum(np.abs(way), _NONE)
 
-        def ahead(which: NDArray[np.intp], cut: Cut) -> Real:
+        def ahead(which: Indices, cut: Cut) -> Real:
             return forwards * (np.conj(cut.normal) * (plane[which] - cut.plane)).imag / np.abs(cut.normal)
 
         goes = np.arange(len(share))
