@@ -159,9 +159,7 @@ def by_zhukovsky(acting: Iterable[Acting], moving: Mapping[str, Frame], speed: f
     """The balancing moment of virtual power, no joint being asked: the sum of the moments of all forces about the pole
     of the plan of velocities that is turned by a right angle.
     """
-    total = np.zeros(np.shape(moving["1"].way[0]))
-    for one in acting:
-        total = total + power(one, moving[one.link])
+    total = sum((power(one, moving[one.link]) for one in acting), np.zeros(np.shape(moving["1"].way[0])))
     return -1000 * total / speed
 
 

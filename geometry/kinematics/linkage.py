@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import Protocol
 
 import numpy as np
 
@@ -55,44 +54,6 @@ def cosine_range(first: float, last: float) -> tuple[float, float]:
     return least, most
 
 
-class Drive(Protocol):
-    """What moves joint A; ``low`` and ``high`` bound S."""
-
-    def joint(self, s: Series) -> Series:
-        """Joint A, complex, mm."""
-
-    def joint_bound(self, s: Series) -> Series:
-        """Bounds of the moduli of that series from those of S."""
-
-    def distances(self, point: complex, low: float, high: float) -> tuple[float, float]:
-        """Least and greatest |A - point| over the motion, mm."""
-
-    def heights(self, point: complex, direction: float, low: float, high: float) -> tuple[float, float]:
-        """Least and greatest distance of A to the left of a line, mm."""
-
-
-class Guide(Protocol):
-    """What guides joint B."""
-
-    def turn(self, joint: Series, length: float) -> Series:
-        """exp(i theta) of the coupler of ``length`` mm, theta its angle from A to B; NaN where it does not close."""
-
-    def turn_bound(self, joint: Series, length: float, room: tuple[float, float], at: Middle) -> Series:
-        """Bounds of the moduli of that series from those of A, from ``room`` and from A at the middles."""
-
-    def room(self, drive: Drive, length: float, low: float, high: float) -> tuple[float, float]:
-        """Least value under the root, mm^4 (slider: mm^2), above 0 where the linkage closes all the way; least |q|^2.
-
-        The second, mm^2, is that of the line from A to the pivot; 1 of a slider, which has none.
-        """
-
-    def transmission_angle(self, room: float, length: float) -> float:
-        """Least acute angle between coupler and rocker (slider: the guide's normal) for that room, rad."""
-
-    def lengths(self, drive: Drive, low: float, high: float) -> tuple[float, float]:
-        """Between which lengths a coupler closes all the way, mm; the first is not below the second where none does."""
-
-
 class RockerDrive(Record):
     """A = pivot + length exp(i (start_angle + sense S)), S in rad; ``sense`` +1: counter-clockwise as S grows."""
 
@@ -115,7 +76,7 @@ class RockerDrive(Record):
         return self.start_angle + self.sense * low - direction, self.start_angle + self.sense * high - direction
 
     def distances(self, point: complex, low: float, high: float) -> tuple[float, float]:
-        """Least and greatest |A - point|: law of cosines."""
+        """Least and greatest |A - point| while S goes from ``low`` to ``high``, mm: law of cosines."""
         away = point - self.pivot
         least, most = cosine_range(*self._angles(low, high, cmath.phase(away)))
         # in squares of the half angle no digits are lost where A comes near the point
@@ -157,6 +118,10 @@ class SliderDrive(Record):
         return min(ends), max(ends)
 
 
+# what moves joint A
+Drive = RockerDrive | SliderDrive
+
+
 class RockerGuide(Record):
     """B on a circle of ``length`` about ``pivot``; ``side`` +1: to the left of the line from A to the pivot.
 
@@ -169,7 +134,7 @@ class RockerGuide(Record):
     side: int = 1
 
     def turn(self, joint: Series, length: float) -> Series:
-        """exp(i theta) of the coupler; NaN where it does not close."""
+        """exp(i theta) of the coupler of ``length`` mm, theta its angle from A to B; NaN where it does not close."""
         way = self._way(joint)
         square: Series = [x.real for x in product(way, conjugate(way))]
         with np.errstate(invalid="ignore"):
@@ -193,7 +158,10 @@ class RockerGuide(Record):
         return product(outer, inner)
 
     def turn_bound(self, joint: Series, length: float, room: tuple[float, float], at: Middle) -> Series:
-        """Bounds of the moduli of that series; the root's binomials alternate but for its first term."""
+        """Bounds of the moduli of that series from those of A, from ``room`` and from A at the middles.
+
+        The root's binomials alternate but for its first term.
+        """
         middle, half = at
         here = self._way(middle)
         way = sharpened([abs(self.pivot) + joint[0], *joint[1:]], here, half)
@@ -213,17 +181,23 @@ class RockerGuide(Record):
         )
 
     def room(self, drive: Drive, length: float, low: float, high: float) -> tuple[float, float]:
-        """The square under the root is concave in |q|^2: least at an end of its range."""
+        """Least value under the root, mm^4, above 0 where the linkage closes all the way; least |q|^2, mm^2.
+
+        The square under the root is concave in |q|^2: least at an end of its range.
+        """
         near, far = drive.distances(self.pivot, low, high)
         outer, inner = length + self.length, abs(length - self.length)
         return min((outer - d) * (outer + d) * (d - inner) * (d + inner) for d in (near, far)), near**2
 
     def transmission_angle(self, room: float, length: float) -> float:
-        """sin mu = sqrt(room) / (2 b c)."""
+        """Least acute angle between coupler and rocker for that room, rad: sin mu = sqrt(room) / (2 b c)."""
         return math.asin(min(1.0, math.sqrt(max(room, 0.0)) / (2 * length * self.length)))
 
     def lengths(self, drive: Drive, low: float, high: float) -> tuple[float, float]:
-        """|b - c| < |q| < b + c."""
+        """Between which lengths a coupler closes all the way, mm, where the first is below the second.
+
+        |b - c| < |q| < b + c.
+        """
         near, far = drive.distances(self.pivot, low, high)
         return max(far - self.length, self.length - near, 0.0), self.length + near
 
@@ -239,7 +213,7 @@ class SliderGuide(Record):
     side: int = 1
 
     def turn(self, joint: Series, length: float) -> Series:
-        """exp(i theta) of the coupler; NaN where it does not close."""
+        """exp(i theta) of the coupler of ``length`` mm, theta its angle from A to B; NaN where it does not close."""
         height = self._height(joint)
         outer: Series = [length - height[0], *(-x for x in height[1:])]
         inner: Series = [length + height[0], *height[1:]]
@@ -265,17 +239,21 @@ class SliderGuide(Record):
         return [((joint[0] - self.point) * back).imag, *((x * back).imag for x in joint[1:])]
 
     def room(self, drive: Drive, length: float, low: float, high: float) -> tuple[float, float]:
-        """b^2 - h^2 at the greatest |h|."""
+        """The same: b^2 - h^2 at the greatest |h|, mm^2; 1, as no line runs from A to a pivot."""
         far = max(abs(h) for h in drive.heights(self.point, self.direction, low, high))
         return (length - far) * (length + far), 1.0
 
     def transmission_angle(self, room: float, length: float) -> float:
-        """sin mu = sqrt(room) / b."""
+        """Least acute angle between coupler and the guide's normal for that room, rad: sin mu = sqrt(room) / b."""
         return math.asin(min(1.0, math.sqrt(max(room, 0.0)) / length))
 
     def lengths(self, drive: Drive, low: float, high: float) -> tuple[float, float]:
-        """b > |h|."""
+        """The same: b > |h|."""
         return max(abs(h) for h in drive.heights(self.point, self.direction, low, high)), math.inf
+
+
+# what guides joint B
+Guide = RockerGuide | SliderGuide
 
 
 class Linkage(Record):
@@ -328,7 +306,6 @@ class Linkage(Record):
         at = joint if name == "driven" else far
         if isinstance(of, RockerDrive | RockerGuide):
             return of.pivot, cmath.phase(at - of.pivot)
-        assert isinstance(of, SliderDrive | SliderGuide)
         return at, of.direction
 
     def length(self, name: str) -> float | None:

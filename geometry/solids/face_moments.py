@@ -91,28 +91,19 @@ def _total(solid: Solid, pieces: int, patches: Sequence[Real]) -> tuple[Real, Re
     return np.sum(shares, axis=0), np.sum(np.abs(shares), axis=0)
 
 
-class _Run(Record, eq=False):
-    """Points and steps (k, 3) along one edge as a loop runs, and weights (k,), 0 at both ends."""
-
-    points: Real
-    steps: Real
-    weights: Real
-    straight: bool
-
-
 class _Samples(Record, eq=False):
-    """Points and derivatives (n, k, 3) of a bundle of edges, and weights (k,)."""
+    """Points and derivatives (n, k, 3) of a bundle of edges, or (k, 3) along one, and weights (k,), 0 at both ends."""
 
     points: Real
     steps: Real
     weights: Real
     straight: bool
 
-    def run(self, row: int, *, forwards: bool) -> _Run:
+    def run(self, row: int, *, forwards: bool) -> _Samples:
         """One of the edges as a loop runs along it."""
         way = 1 if forwards else -1
         points, steps = self.points[row, ::way], way * self.steps[row, ::way]
-        return _Run(points, steps, self.weights[::way], self.straight)
+        return _Samples(points, steps, self.weights[::way], self.straight)
 
 
 def _samples(solid: Solid, edges: Edges, pieces: int) -> _Samples:
@@ -135,7 +126,7 @@ def _integrals(points: Real, normals: Real, weights: Real) -> Real:
     return sums / _PARTS
 
 
-def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
+def _charted(chart: Chart, loops: list[list[_Samples]], *, along: bool) -> Real:
     across, weights = gauss_rule(_ACROSS if chart.is_bent else _FLAT)
     base, inner = _base(chart, loops), slice(1, -1)
     sides, runs, poles = [], [], []
@@ -163,7 +154,7 @@ def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
     return -_integrals(*chart.with_normal(u[:, None], heights), (step * (v - base))[:, None] * (weights / 2))
 
 
-def _base(chart: Chart, loops: list[list[_Run]]) -> float:
+def _base(chart: Chart, loops: list[list[_Samples]]) -> float:
     """The v that integrals over v begin at: 0, or of a tube far wider than its face is off the axis one of the face.
 
     Between 0 and such a face the tube sweeps so much more than the face does that no digits of this were left.
@@ -175,7 +166,7 @@ def _base(chart: Chart, loops: list[list[_Run]]) -> float:
     return float(chart.flat(points[0])[1])
 
 
-def _ruled(runs: list[_Run]) -> Real:
+def _ruled(runs: list[_Samples]) -> Real:
     """Between two copies of a curve, which the loop runs the first of."""
     first = 0 if not (runs[0].straight and runs[2].straight) else 1
     low, high = runs[first], runs[first + 2]
