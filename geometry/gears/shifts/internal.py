@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterable
 from functools import lru_cache
 from itertools import pairwise
+from operator import sub
 
 from geometry.base.angles import involute_function
 from geometry.base.record import Record, replace
@@ -116,7 +117,7 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
         return lambda x1, x2: value(internal_state(pair, x1, x2))
 
     def compared(name: str, sides: _Sides) -> Condition:
-        return Condition(name, None, lambda x1, x2: _difference(sides(x1, x2, internal_state(pair, x1, x2))))
+        return Condition(name, None, lambda x1, x2: sub(*sides(x1, x2, internal_state(pair, x1, x2))))
 
     found = [compared(name, sides) for name, sides in _always(pair).items()]
     for name, value in _LEVELLED.items():
@@ -127,10 +128,6 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
             found += above(name, levels, at(value))
     found.append(Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)))
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
-
-
-def _difference(sides: tuple[float, float]) -> float:
-    return sides[0] - sides[1]
 
 
 @lru_cache(maxsize=64)
@@ -300,9 +297,8 @@ def _straight_lines(condition: Condition, box: Box, difference: float) -> list[C
     which = _alone(condition.name)
     if condition.name == "working_angle":
         low, high = max(box.left, box.bottom - difference), min(box.right, box.top - difference)
-        return (
-            _segment(condition, complex(low, low + difference), complex(high, high + difference)) if low < high else []
-        )
+        line = (complex(x1, x1 + difference) for x1 in (low, high))
+        return _segment(condition, *line) if low < high else []
     if which is None:
         return []
     lines: list[ContourLine] = []

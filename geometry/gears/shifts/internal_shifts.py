@@ -147,7 +147,7 @@ def ring_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
     space = gear.base_half_angle - involute_function(math.atan2(tangent, base))
     thick = tip * (gear.pitch_angle - 2 * space)
     if isinstance(pair.root, RoundedRoot):
-        return _rounded_ring(gear, tip, tangent, thick)
+        return _rounded_ring(gear, pair.root, tip, tangent, thick)
     involute = _cut_involute(-pair.second_teeth, pair.root, shift * pair.share, alpha)
     if not involute >= 0:
         return GearNumbers(tip, _NAN, tangent, thick, _NAN, involute)
@@ -166,10 +166,8 @@ def cutting_margins(pair: InternalShiftPair, shift: float) -> tuple[float, float
     return found[0], found[1], found[2]
 
 
-def _rounded_ring(gear: RingGear, tip: float, tangent: float, thick: float) -> GearNumbers:
+def _rounded_ring(gear: RingGear, root: RoundedRoot, tip: float, tangent: float, thick: float) -> GearNumbers:
     """A ring whose root no cutter made; its involute ends where the rounding begins."""
-    root = gear.root
-    assert isinstance(root, RoundedRoot)
     # the body that fills the space, sharp where the rounding is as large as it takes
     asked = rounded_root_plug(replace(gear, root=replace(root, radius=root.radius or 0.0)))
     room = min(asked.corner_angle * asked.tip_radius, asked.tip_radius - asked.base_radius - asked.rounding_radius)

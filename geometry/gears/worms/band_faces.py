@@ -202,12 +202,8 @@ class BandFaces(WormRings):
                 grid = np.concatenate([low[:, None], points, high[:, None]], axis=1)
                 self.face(kinds.SplineSurface((DEGREE, DEGREE), knots, self.knots.around, grid), around,
                           along=False, threaded=True)  # fmt: skip
-        if ridge:
-            return [self.add_edges(lower.corners[c][0], upper.corners[c][0], Straight(UP)) for c in (0, -1)] + [
-                axial[0],
-                axial[-1],
-            ]
-        return [axial[0], axial[-1]]
+        feet = [self.add_edges(lower.corners[c][0], upper.corners[c][0], Straight(UP)) for c in (0, -1) if ridge]
+        return [*feet, axial[0], axial[-1]]
 
     def _end_planes(self, axial: list[Index]) -> None:
         """The axial planes in which threads end."""

@@ -110,11 +110,9 @@ class WormBody(Record):
         if self.ending == "cut":
             return 0.0
         # a flank of a blunt thread ends as far within its end as the other one at its foot
-        return (
-            4 * (thread.root_half + CLEAR * module)
-            if self.ending == "blunt"
-            else math.pi * module - 2 * thread.tip_half
-        )
+        if self.ending == "blunt":
+            return 4 * (thread.root_half + CLEAR * module)
+        return math.pi * module - 2 * thread.tip_half
 
     @property
     def root_radius(self) -> float:

@@ -12,12 +12,11 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from geometry.base.errors import rounded
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Indices, Real
 from geometry.curves.line_arc import Arc
 from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
 from geometry.gears.worms.hob import Cut
@@ -96,7 +95,7 @@ class _Flanks:
             gap = np.where(radius < low, np.minimum(gap, free), gap)
         return np.asarray(gap)
 
-    def least(self, slid: Real, off: float) -> tuple[Real, Complex, NDArray[np.intp]]:
+    def least(self, slid: Real, off: float) -> tuple[Real, Complex, Indices]:
         """Least gaps at slides (n,), where, x + iy about the wheel's axis, and in which planes."""
         planes = len(self.side.heights)
         s = slid[:, None, None]
@@ -216,7 +215,7 @@ def turn_for(teeth: WormTeeth, errors: AxisErrors) -> float:
 def _side(thread: Thread, teeth: WormTeeth, errors: AxisErrors, slid: Real, off: float) -> tuple[Real, Complex]:
     """Least gaps of the lower side at slides, flanks and fillets, and where; about the least of all narrowed."""
     arc = next((line for name, line in thread.lines if name == "fillet" and isinstance(line, Arc)), None)
-    best: tuple[Real, Complex] | None = None
+    found = list[tuple[Real, Complex]]()
     for part in (teeth.flank, teeth.fillet):
         places, heights = slid, np.linspace(-teeth.width / 2, teeth.width / 2, _PLANES)
         whole: tuple[Real, Complex] | None = None
@@ -233,14 +232,10 @@ def _side(thread: Thread, teeth: WormTeeth, errors: AxisErrors, slid: Real, off:
             places = np.linspace(places[at] - step, places[at] + step, _FEW)
             heights = np.linspace(heights[max(plane - 1, 0)], heights[min(plane + 1, len(heights) - 1)], _FEW)
         assert whole is not None
-        nearer = (
-            whole
-            if best is None
-            else tuple(np.where(whole[0] < best[0], w, b) for w, b in zip(whole, best, strict=True))
-        )
-        best = nearer[0], nearer[1]
-    assert best is not None
-    return best
+        found.append(whole)
+    (gaps, points), (others, beside) = found
+    nearer = others < gaps
+    return np.where(nearer, others, gaps), np.where(nearer, beside, points)
 
 
 def _lands(worm: Worm, teeth: WormTeeth, errors: AxisErrors) -> float:

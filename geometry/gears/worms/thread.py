@@ -89,16 +89,6 @@ class Thread(Record):
     root_half: float
     tip_half: float
 
-    def points(self, plane: Complex, theta: ArrayLike, *, upper: bool = True, start: int = 0) -> Real:
-        """Points (..., 3), mm, of places r + iz of the upper side turned by theta, rad, of both broadcast."""
-        worm = self.worm
-        side = 1 if upper else -1
-        angle = np.asarray(theta, float)
-        turned = worm.sign * (side * angle + start * math.tau / worm.number_of_starts)
-        out = plane.real * np.exp(1j * turned)
-        rise = side * (plane.imag + worm.parameter * angle)
-        return np.stack(np.broadcast_arrays(out.real, out.imag, rise), axis=-1)
-
     def normals(
         self, plane: Complex, tangent: Complex, theta: ArrayLike, *, upper: bool = True, start: int = 0
     ) -> Real:

@@ -20,7 +20,6 @@ from geometry.approximation.outline import CadCurve, Outline
 from geometry.approximation.tensor import clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError, GeometryError
 from geometry.base.record import Record, replace
-from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
@@ -81,7 +80,6 @@ class WheelSplines(Record, eq=False):
     strips: tuple[Strip, ...]
     core: tuple[Outline, ...]
     max_error: float
-    bound: Bound = "sampled"
 
 
 def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
@@ -326,7 +324,8 @@ def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
     beside = [(strips[0],), *pairwise(strips), (strips[-1],)]
     rings = [_ring(made, teeth, pair, -1 if pair[-1] is pair[0] and k else 0, middle) for k, pair in enumerate(beside)]
     origin = made.on_axis(middle)
-    root, throat = (Torus(Frame(origin, UP, AHEAD), teeth.centre_distance, r) for r in _tubes(teeth))
+    tubes = teeth.hob.tip_radius, teeth.throat_radius
+    root, throat = (Torus(Frame(origin, UP, AHEAD), teeth.centre_distance, r) for r in tubes)
     rim = Cylinder(Frame(origin, UP, AHEAD), teeth.outer_radius)
     for strip, (lower, upper) in zip(splines.strips, pairwise(rings), strict=True):
         within = abs(strip.low + strip.high) / 2 < teeth.throat_height
@@ -356,11 +355,6 @@ def _land(made: BodyFaces, teeth: WormTeeth, strip: Strip, turns: Complex, rise:
     poles = tensor_poles(_DEGREE, knots, strip.v_knots, teeth.root_radius(v) * np.exp(1j * angles))
     points = made.add_points(turns[:, None, None] * poles, rise)
     return SplineSurface((_DEGREE, _DEGREE), knots, strip.v_knots, points)
-
-
-def _tubes(teeth: WormTeeth) -> tuple[float, float]:
-    """Radii of the tubes of root and throat, mm."""
-    return teeth.hob.tip_radius, teeth.throat_radius
 
 
 def _grids(strip: Strip, teeth: WormTeeth) -> list[Complex]:
@@ -402,7 +396,7 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
 
     def within(tolerance: float) -> FacedSolid:
         splines = wheel_splines(wheel, tolerance)
-        return FacedSolid(wheel_solid(wheel, splines), splines.max_error, splines.bound)
+        return FacedSolid(wheel_solid(wheel, splines), splines.max_error, "sampled")
 
     walls = [Measured("flank", wheel.from_sides, wheel.teeth.number_of_teeth)]
     if wheel.teeth.hob.swivel:

@@ -14,6 +14,7 @@ from geometry.curves.line_arc import Arc
 from geometry.gears.worms.flank import FORMS
 from geometry.gears.worms.thread import Thread, thread_of
 from geometry.gears.worms.worm import Worm
+from tests.geometry.gears.worms.screwed import screwed
 
 
 @pytest.mark.parametrize("form", sorted(FORMS))
@@ -41,9 +42,9 @@ def test_normals_point_out_of_the_thread_and_across_its_surface(hand: str, upper
     for name, line in thread.lines:
         t = np.linspace(*line.domain, 5)[1:-1]
         normal = thread.normals(line.point(t), line.tangent(t), theta, upper=upper, start=1)
-        points = thread.points(line.point(t), theta, upper=upper, start=1)
-        for near in (thread.points(line.point(t + step), theta, upper=upper, start=1),
-                     thread.points(line.point(t), theta + step, upper=upper, start=1)):  # fmt: skip
+        points = screwed(thread, line.point(t), theta, upper=upper, start=1)
+        for near in (screwed(thread, line.point(t + step), theta, upper=upper, start=1),
+                     screwed(thread, line.point(t), theta + step, upper=upper, start=1)):  # fmt: skip
             across = np.einsum("ij,ij->i", normal, near - points) / np.linalg.norm(near - points, axis=1)
             assert np.abs(across).max() < 1e-5, name
         # a step along it leaves the thread: axially beyond the line, at its own radius
@@ -60,9 +61,9 @@ def test_a_screw_carries_its_lines_into_each_other() -> None:
     thread = thread_of(Worm(5.0, 3, 12.0, "ZN1"))
     worm, line = thread.worm, thread.lines[-1][1]
     plane = line.point(np.linspace(*line.domain, 7))
-    first, moved = thread.points(plane, 0.2), thread.points(plane, 0.2 + math.tau / 3)
+    first, moved = screwed(thread, plane, 0.2), screwed(thread, plane, 0.2 + math.tau / 3)
     # a turn by one of three starts is a step to the next thread, one pitch on
-    beside = thread.points(plane, 0.2, start=1) + np.array([0.0, 0.0, math.pi * worm.module])
+    beside = screwed(thread, plane, 0.2, start=1) + np.array([0.0, 0.0, math.pi * worm.module])
     assert moved == pytest.approx(beside, abs=1e-12)
     assert np.hypot(first[:, 0], first[:, 1]) == pytest.approx(plane.real, abs=1e-12)
 

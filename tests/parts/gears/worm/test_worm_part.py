@@ -21,6 +21,7 @@ from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart, step_text
+from tests.geometry.gears.worms.screwed import screwed
 from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import parts_of
 
@@ -93,7 +94,7 @@ def test_balls_touch_both_flanks_of_their_space_and_the_chord_is_the_shortest(ke
     # brute force over the upper flank below the ball and the lower one above it
     t, turn = np.meshgrid(np.linspace(*line.domain, 400), np.linspace(-0.6, 0.6, 1201))
     for upper, up in ((True, 0.0), (False, math.pi * worm.module)):
-        points = thread.points(line.point(t), turn, upper=upper) + np.array([0.0, 0.0, up])
+        points = screwed(thread, line.point(t), turn, upper=upper) + np.array([0.0, 0.0, up])
         assert np.linalg.norm(points - centre, axis=-1).min() == pytest.approx(ball / 2, abs=2e-4)
     r, half = worm.reference_radius, worm.screw.half_thickness
     turns = np.linspace(-0.3, 0.3, 200_001)
