@@ -38,16 +38,13 @@ class ReadLoop(Protocol):
     @property
     def points(self) -> Complex:
         """Where each of its edges begins, mm."""
-        ...
 
     @property
     def size(self) -> float:
         """By which the outermost of several is told."""
-        ...
 
     def outline(self, turn: complex = 1.0, *, clockwise: bool = False) -> Outline:
         """It, turned about the axis, for a follower to touch; ``clockwise``: about a hole."""
-        ...
 
 
 class ReadBack(Protocol):
@@ -56,29 +53,23 @@ class ReadBack(Protocol):
     @property
     def has_arcs(self) -> bool:
         """Whether its curves are lines and arcs, whose curvature jumps."""
-        ...
 
     @property
     def is_flat(self) -> bool:
         """Whether it holds outlines, and no solid."""
-        ...
 
     @property
     def colour(self) -> str | None:
         """The colour of its part, #rrggbb; None where it has none."""
-        ...
 
     def names(self) -> tuple[str, ...] | None:
         """What its parts are called; None where the format has no names."""
-        ...
 
     def section(self, z: float) -> Sequence[ReadLoop]:
         """The closed outlines at a height, mm; of a flat file all of its outlines."""
-        ...
 
     def faces(self) -> Real:
         """Corners (n, 3, 3) of its triangles, mm; n = 0 where it has none."""
-        ...
 
 
 def outline_points(loop: ReadLoop) -> Complex:
@@ -111,12 +102,10 @@ class Probe(Protocol):
     @property
     def name(self) -> str:
         """What the names of its measured values begin with; empty where the part has only this probe."""
-        ...
 
     @property
     def needs_whole(self) -> bool:
         """Whether it is left out where an offset has trimmed the outline."""
-        ...
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Put a file to it whose outlines are ``offset`` mm out of the material and ``declared`` mm off at most.
@@ -126,4 +115,3 @@ class Probe(Protocol):
         ReadError
             The file holds nothing that it could be put to.
         """
-        ...

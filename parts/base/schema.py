@@ -123,10 +123,10 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         what = _tags_of(kind, [*keys, name], table)
         what = what or _with_form(described_key(owner, name), _form_of(owner, name), kind, [*keys, name], table)
         return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
-    allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)
+    allowed, words = _tags_of(kind, keys, table), _tags(_tagged_at(kind, keys, table))
     if allowed is None and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):
         owner, name = _owner(kind, keys[: named[-1]], table), keys[named[-1]]
-        allowed, words = described_key(owner, name), _words_of(owner, name)
+        allowed, words = described_key(owner, name), _literals(_types_of(owner).get(name))
     value, wrong_type = looked_up(table, keys), re.match(r"Expected `(.*?)`, got `(.*?)`", message)
     if path and path.group(1).endswith("[...]"):
         # msgspec does not tell which entry of such a table it is
@@ -276,21 +276,15 @@ def _tags_of(kind: type[Struct], keys: list[str], table: object) -> Message | No
     return _one_of(_tags(tables)) if tables else None
 
 
-def _tag_words_of(kind: type[Struct], keys: list[str], table: object) -> list[str]:
-    return _tags(_tagged_at(kind, keys, table))
-
-
 def _tags(structs: list[type[Struct]]) -> list[str]:
     return [str(s.__struct_config__.tag) for s in structs]
 
 
 def _one_of(words: Iterable[object]) -> Message:
     quoted = [format_value(w) for w in words]
-    return (
-        message("one of {choices}", choices=", ".join(quoted))
-        if len(quoted) > 1
-        else message("only {choice} works", choice=quoted[0])
-    )
+    if len(quoted) > 1:
+        return message("one of {choices}", choices=", ".join(quoted))
+    return message("only {choice} works", choice=quoted[0])
 
 
 def looked_up(table: object, keys: list[str]) -> Any:
@@ -308,12 +302,8 @@ def described_key(owner: type[Struct], name: str) -> Message | None:
     return described(_types_of(owner).get(name))
 
 
-def _words_of(owner: type[Struct], name: str) -> list[str]:
-    """The words that a key may hold."""
-    return _literals(_types_of(owner).get(name))
-
-
 def _literals(kind: object) -> list[str]:
+    """The words that a key of a type may hold."""
     if get_origin(kind) is Literal:
         return [str(a) for a in get_args(kind)]
     return [w for a in get_args(kind) if not isinstance(a, str) for w in _literals(a)]

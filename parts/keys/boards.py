@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated
 
 from msgspec import Meta, Struct
@@ -79,6 +79,15 @@ class BedSpec(LaidKeys, kw_only=True):
         return self.depth
 
 
+def check_parts(parts: Sequence[str], known: Mapping[str, object], source: str, place: str) -> None:
+    """Refuse a part that is none of those ``known``, or stands in a list twice."""
+    for part in parts:
+        if part not in known:
+            raise SceneError(source, place, part, "no_such_part", meant(part, known), known=list(known))
+        if parts.count(part) > 1:
+            raise SceneError(source, place, part, "listed_twice")
+
+
 def check_laid(
     spec: LaidKeys, known: Mapping[str, object], names: Mapping[str, object], source: str, place: str
 ) -> None:
@@ -89,11 +98,7 @@ def check_laid(
     SceneError
         With the key and what is allowed.
     """
-    for part in spec.parts or ():
-        if part not in known:
-            raise SceneError(source, f"{place}.parts", part, "no_such_part", meant(part, known), known=list(known))
-        if (spec.parts or []).count(part) > 1:
-            raise SceneError(source, f"{place}.parts", part, "listed_twice")
+    check_parts(spec.parts or (), known, source, f"{place}.parts")
     for name in spec.copies:
         if name not in known and name not in names:
             every = list({**known, **names})

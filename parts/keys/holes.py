@@ -266,9 +266,8 @@ def spoked(keys: K, core: float) -> K:
     inner, outer = spokes.inner_diameter, spokes.outer_diameter
     hub, web, module = (getattr(keys, key, None) for key in ("hub", "web", "module"))
     if outer is None:
-        outer = (
-            2 * (core - (_RIM_MODULES * module if module else core / 10)) if web is None else web.rim_diameter / _OFF
-        )
+        rim = _RIM_MODULES * module if module else core / 10
+        outer = 2 * (core - rim) if web is None else web.rim_diameter / _OFF
     radius, sine = spokes.corner_radius, math.sin(math.pi / spokes.count)
     if inner is None:
         short: float = getattr(keys, "bore_diameter", None) or 0.0

@@ -23,7 +23,7 @@ from parts.base.registry import KINDS
 from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
 from parts.base.texts import ENGLISH, Message, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, LEAST_LENGTH, Identifier, mm
-from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, Kerf, LaidKeys, check_laid
+from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, Kerf, LaidKeys, check_laid, check_parts
 from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
 from parts.keys.working import WorkingTable
@@ -514,11 +514,7 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
     def refuse(key: str, code: str, **numbers: Any) -> None:
         raise SceneError(source, f"{place}.{key}", getattr(spec, key), code, REMOVED, **numbers)
 
-    for part in spec.parts or ():
-        if (spec.parts or []).count(part) > 1:
-            raise SceneError(source, f"{place}.parts", part, "listed_twice")
-        if part not in parts:
-            raise SceneError(source, f"{place}.parts", part, "no_such_part", meant(part, parts), known=list(parts))
+    check_parts(spec.parts or (), parts, source, f"{place}.parts")
     if spec.kerf and spec.offset:
         refuse("kerf", "kerf_and_offset")
     for key in ("kerf", "offset"):
