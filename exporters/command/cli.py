@@ -650,6 +650,7 @@ def _new(options: argparse.Namespace) -> int:
         plain_scene,
         tables_of_kind,
     )
+    from geometry.base.errors import Nearest
     from parts.base.refusal import SceneError, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
@@ -668,10 +669,12 @@ def _new(options: argparse.Namespace) -> int:
         text = new_table(options.kind, _language(options))
     if text is None:
         if options.kind not in scenes and not (options.expand and os.path.isfile(options.kind)):
-            if tables := tables_of_kind(options.kind.partition(".")[0]):
-                raise SceneError(
-                    "new", "KIND", options.kind, "unknown_table", meant(options.kind, tables), known=tables
-                )
+            kind, _, key = options.kind.partition(".")
+            if tables := tables_of_kind(kind):
+                near = meant(key, tables)
+                near = near and Nearest(f"{kind}.{near.value}", "meant")
+                shown = [f"{kind}.{name}" for name in tables]
+                raise SceneError("new", "KIND", options.kind, "unknown_table", near, known=shown)
             known = list(dict.fromkeys([*(kind for kinds, _ in makers for kind in kinds), *built_in]))
             raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
         if options.kind not in scenes:

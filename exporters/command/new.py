@@ -192,8 +192,8 @@ def _tables_at(kind: str) -> list[type[Struct]]:
 
 
 def tables_of_kind(kind: str) -> list[str]:
-    """What ``new_table`` can be asked for of a kind."""
-    return [f"{kind}.{f.encode_name}" for table in _tables_at(kind) for f in fields_of(table) if structs_of(f.type)]
+    """The keys of a kind that ``new_table`` can be asked for."""
+    return [f.encode_name for table in _tables_at(kind) for f in fields_of(table) if structs_of(f.type)]
 
 
 def _scene_of(kind: str) -> Path | None:

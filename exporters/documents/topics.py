@@ -77,7 +77,8 @@ def _home(topic: str) -> str:
     """The module of a topic: one of ours, or the page of a kind of part that goes by its own name."""
     home = TOPICS[topic][0] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
     if home is None:
-        raise SceneError(PLACE, "TOPIC", topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS))
+        see = "higherpair calc --help"
+        raise SceneError(PLACE, "TOPIC", topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS), see=see)
     return home
 
 

@@ -155,11 +155,12 @@ class RackPair(Record, dict=True):
         more than its clearance, so that every rack of it does, 1.6e-9 modules deep.
         """
         found = not_kept(self.margins(), self.distance)
-        if self._depth_in_fillet() > CONTACT_TOLERANCE * self.module:
+        if self.depth_in_fillet > CONTACT_TOLERANCE * self.module:
             return found
         return tuple(f for f in found if f.code != "fillet_interference_gear")
 
-    def _depth_in_fillet(self) -> float:
+    @property
+    def depth_in_fillet(self) -> float:
         """How deep the rack's tip goes into the gear's fillet, mm: its corner out of the rounding that cut that."""
         gear = self.gear
         rounding = gear.module * (gear.rack.tip_radius if gear.cutter is None else gear.cutter.tip_rounding)

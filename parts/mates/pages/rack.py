@@ -87,3 +87,9 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKey
     fillets = found["fillet_interference_gear"].margin, found["fillet_interference_rack"].margin
     page.both("fillet_interference_margin", fillets, "", ISO)
     limit_steps(page, pair, pair.gears, helical)
+    if fillets[0] < 0 and "fillet_interference_gear" not in {f.code for f in pair.findings()}:
+        text = N_(
+            "the rack's tip goes {depth:.2g} mm deep into the fillet, no more than counts as contact: the rounding "
+            "that cut it takes a little more than its clearance"
+        )
+        page.note(text, depth=pair.depth_in_fillet)

@@ -471,3 +471,16 @@ def test_axes_nearer_by_the_radial_backlash_leave_none() -> None:
     assert 0 <= nearer["circumferential_backlash"] < 2e-6
     with pytest.raises(SceneError, match="overlap"):
         values_of(f"{told} working_centre_distance={150 - radial - 1e-5!r}")
+
+
+def test_a_rack_whose_tip_ends_beyond_the_involute_is_told_how_deep() -> None:
+    """ISO 53 A: the corner of the mate, h_a = 1, by the circle of the cutter's rounding that touches its flank."""
+    words = ("module=2", "first.number_of_teeth=20", "second.kind=rack", "second.number_of_teeth=20")
+    beyond = 1 - (1.25 - 0.38 * (1 - math.sin(math.radians(20))))
+    depth = 2 * (math.hypot(0.38, beyond / math.cos(math.radians(20))) - 0.38)
+    notes = json.loads(calculate("gear-pair", words, "json", "en"))["notes"]
+    told = next(note for note in notes if "into the fillet" in note)
+    assert float(told.split()[4]) == pytest.approx(depth, rel=0.02)
+    # profile C has a rounding of 0.25: its involute goes on below the mate's tip
+    notes = json.loads(calculate("gear-pair", (*words, "basic_rack=ISO 53 C"), "json", "en"))["notes"]
+    assert not any("into the fillet" in note for note in notes)
