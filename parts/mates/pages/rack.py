@@ -89,7 +89,7 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKey
     limit_steps(page, pair, pair.gears, helical)
     if fillets[0] < 0 and "fillet_interference_gear" not in {f.code for f in pair.findings()}:
         text = N_(
-            "the rack's tip goes {depth:.2g} mm deep into the fillet, no more than counts as contact: the rounding "
+            "the rack's tip goes into the fillet by no more than counts as contact, {depth:.2g} mm: the rounding "
             "that cut it takes a little more than its clearance"
         )
         page.note(text, depth=pair.depth_in_fillet)
