@@ -125,6 +125,9 @@ class _Sizes:
         for name in ("clearance", "fit"):
             if getattr(keys, name) > (most := keys.pin_diameter * _LOOSE):
                 raise self._refused((name, "pin_diameter"), "pins_lie_loose", most=most, diameter=keys.pin_diameter)
+        # the pinion stands two gaps higher than the ring
+        if keys.plate_thickness <= 2 * keys.axial_gap:
+            raise self._refused(("axial_gap", "plate_thickness"), "ring_beside_pinion")
         root = keys.module * (pinion / 2 - _ROOT)
         most = root - keys.platform_axle_diameter / 2 - _WALL
         if self.second_arm > most:

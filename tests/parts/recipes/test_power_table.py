@@ -249,6 +249,8 @@ def test_every_flat_part_is_wide_enough_for_its_kerf() -> None:
         ({"teeth": [47, 48]}, "axles_overlap", "teeth"),
         ({"clearance": 5.0}, "pins_lie_loose", "clearance"),
         ({"fit": 2.0}, "pins_lie_loose", "fit"),
+        ({"plate_thickness": 1.0}, "ring_beside_pinion", "plate_thickness"),
+        ({"axial_gap": 2.0}, "ring_beside_pinion", "axial_gap"),
         ({"name": "a", "normal_backlash": 3.0}, "backlash_leaves_no_teeth", "assemblies[1].normal_backlash"),
         (PRINT | {"worm_module": 1.0}, "axle_in_the_teeth", "worm_module"),
         ({"platform_size": 40.0}, "platform_too_small", "platform_size"),
