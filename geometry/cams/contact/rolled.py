@@ -124,8 +124,8 @@ class Outline(Record):
     edges: tuple[Edges, ...]
     order: Index
 
-    def families(self) -> list[Edges]:
-        """The edges and the turns of the normal about the convex corners between them."""
+    def families(self, *, hollow: bool) -> list[Edges]:
+        """The edges and the turns of the normal about the convex corners between them, or about the ``hollow`` too."""
         whole: list[Edges] = [e for e in self.edges if len(e)]
         every = [np.arange(len(e)) for e in whole]
         starts = [e.at(i, np.zeros(len(i))) for e, i in zip(whole, every, strict=True)]
@@ -139,9 +139,9 @@ class Outline(Record):
         fans = (0.0, _BEYOND) if any(isinstance(e, Smooth) for e in whole) else (0.0,)
         for beyond in fans:
             turn = between + 2 * beyond
-            convex = turn > 0
-            first = np.angle(before[convex]) - beyond
-            whole.append(Rounds(corner[convex], np.zeros(int(convex.sum())), first, turn[convex]))
+            mine = turn != 0 if hollow else turn > 0
+            first = np.angle(before[mine]) - beyond
+            whole.append(Rounds(corner[mine], np.zeros(int(mine.sum())), first, turn[mine]))
         return whole
 
 
@@ -195,7 +195,8 @@ def _stopped(cam: Stopped, outline: Outline, count: int, offset: float, below: b
     # stops at the angles themselves, and such as are known beside them alone
     lift, near = np.full((2, count), -np.inf)
     step = TURN / count
-    for family in outline.families():
+    # what is less than a point passes from edge to edge about hollow corners; a roller comes to none
+    for family in outline.families(hollow=offset > 0 and not cam.is_flat):
         # a face that lies on a line touches its ends at the same angle
         if not len(family) or (cam.is_flat and isinstance(family, Lines)):
             continue

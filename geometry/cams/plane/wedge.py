@@ -207,11 +207,12 @@ class WedgeCam(Record):
     def stop(self, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
         """Where an edge's point with its outward normal stops the follower: the travel as an angle, and S there.
 
-        The whole travel is half a turn; what lies far beyond its ends is not a number.
+        The whole travel is half a turn; what lies far beyond its ends, or looks down, is not a number.
         """
         at, lift = self.mount.place(point + (self.radius - offset) * normal)
         angle = at * (math.pi / self.motion.travel)
-        return np.where(np.abs(angle - math.pi / 2) < 0.6 * math.pi, angle, np.nan), lift
+        held = (normal.imag > 0) & (np.abs(angle - math.pi / 2) < 0.6 * math.pi)
+        return np.where(held, angle, np.nan), lift
 
     @property
     def ends(self) -> tuple[float, float]:

@@ -27,7 +27,7 @@ from parts.scene.files import built_in_scenes
 from parts.scene.formats import FILE_KINDS
 from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
-from tests.exporters.making import dxf_chains, read_report, run
+from tests.exporters.making import dxf_chains, read_report, run, write_scene
 from tests.geometry.cams.oracle import MP, Eccentric, followed
 from tests.parts.cams.disk_cam.test_cam import CAMS, part_of, scene_text
 
@@ -154,6 +154,29 @@ def test_step_files_are_rolled_too(tmp_path: Path) -> None:
     assert 1e-9 < step["measured"]["lift_error"] < 2e-6
     assert step["measured"]["acceleration_jump"] < 1e-3 * step["measured"]["acceleration_peak"]
     assert json.dumps(report)
+
+
+RISE, BACK = {"move": "rise", "law": "polynomial_345"}, {"move": "return_", "law": "modified_sine"}
+POINTED: dict[str, dict[str, Any]] = {
+    "disk": {"kind": "cam", "lift": 30.0, "base_circle_radius": 15.0,
+             "phases": [RISE | {"angle_deg": 60.0}, {"move": "dwell", "angle_deg": 60.0},
+                        BACK | {"angle_deg": 120.0}, {"move": "dwell", "angle_deg": 120.0}]},
+    "wedge": {"kind": "wedge_cam", "lift": 45.0, "base_height": 45.0,
+              "phases": [RISE | {"travel": 180.0}, BACK | {"travel": 180.0}]},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", POINTED)
+@pytest.mark.parametrize(("offset", "tolerance"), [(0.06, 0.003), (0.2, 0.01)])
+def test_a_point_passes_hollow_corners_of_chords_that_are_moved_out(
+    name: str, offset: float, tolerance: float, tmp_path: Path
+) -> None:
+    """It is less than a point then, and fell between two chords, on the lower edge of a plate."""
+    part = POINTED[name] | {"follower": "pointed", "face_width": 6.0}
+    scene = write_scene(tmp_path / "s.toml", {"p": part}, [{"format": "stl", "offset": offset, "tolerance": tolerance}])
+    assert run("build", scene, "--out", tmp_path / "o") == 0
+    (file,) = read_report(tmp_path / "o" / "s")["files"]
+    assert 0 < file["measured"]["lift_error"] < 3 * tolerance
 
 
 @pytest.mark.heavy
