@@ -308,14 +308,20 @@ def _parser(told: Words) -> Parser:
     as_json = argument_of("--json", action="store_true", help=told.text("print the results as JSON"))
     quiet = argument_of("-q --quiet", action="store_true", help=told.text("print nothing if all is well"))
     to_file = told.text("write to a file, in UTF-8 (default: to the terminal)")
-    page = argument_of("--out", type=Path, metavar=shown("FILE"), help=to_file)
+
+    def place(word: str) -> Path:
+        if not word:
+            raise argparse.ArgumentTypeError(told.text('"" names no place'))
+        return Path(word)
+
+    page = argument_of("--out", type=place, metavar=shown("FILE"), help=to_file)
     scene = told.text("a built-in scene or a scene file (.toml)")
     of_scenes = told.text("built-in scenes or scene files (.toml)")
     results = told.text("write the results to OUT/<scene name> (default: out)")
     one_scene = argument_of("scene", metavar=shown("SCENE"), help=scene)
     scenes = argument_of("scenes", nargs="+", metavar=shown("SCENE"), help=of_scenes)
     # what arguments of one kind share
-    out: dict[str, Any] = {"default": "out", "type": Path}
+    out: dict[str, Any] = {"default": "out", "type": place}
     repeated: dict[str, Any] = {"action": "append", "default": []}
 
     build = command("build", told.text("make the files of a scene"), _build, as_json, quiet, scenes)

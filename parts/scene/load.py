@@ -535,10 +535,9 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
     if spec.purpose is None:
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
-        near = meant(spec.purpose, purposes)
-        raise SceneError(
-            source, f"{place}.purpose", spec.purpose, "wrong_purpose", near, format=spec.format, known=list(purposes)
-        )
+        # a word that is none at all is refused as it is read: this one is of another format
+        told = {"format": spec.format, "known": list(purposes)}
+        raise SceneError(source, f"{place}.purpose", spec.purpose, "wrong_purpose", None, **told)
     check_sheet_keys(spec, source, place)
     kind = spec.kind
     if spec.kerf and kind.form is Form.TRIANGLES:

@@ -12,11 +12,12 @@ import numpy as np
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.nearest import nearer
 from geometry.base.roots import bracketed_roots
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
 from geometry.kinematics.kinetostatics import frames, reduced_inertia, weights_work
-from geometry.kinematics.levers import Moved, Rods, Slider, Stone, closed, ranges, swing
+from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, closed, ranges, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.keys.base import either
@@ -129,6 +130,15 @@ def _metres(vector: complex | np.ndarray) -> float:
     return abs(complex(vector)) / 1000
 
 
+def _about(levers: Levers, start: float) -> tuple[list[tuple[float, float]], tuple[float, float] | None]:
+    """Between which angles the crank can move, rad, each as it lies about a given one; those about that one."""
+    turn = 2 * math.pi
+    found = ranges(levers)
+    shifts = [turn * round((start - (low + high) / 2) / turn) for low, high in found]
+    about = [(low + shift, high + shift) for (low, high), shift in zip(found, shifts, strict=True)]
+    return about, next(((low, high) for low, high in about if low < start < high), None)
+
+
 class _Page:
     """The page while it grows: ``at`` is the mechanism in the first position, in mm and s."""
 
@@ -165,14 +175,20 @@ class _Page:
             hindered = error.renamed(NAMES.get(error.name, error.name))
         else:
             return None, None
-        found = ranges(self.levers)
-        if not found or keys.unevenness is not None or keys.sheet is not None:
+        if keys.unevenness is not None or keys.sheet is not None:
             raise hindered
-        turn = 2 * math.pi
-        # each as it lies about the given angle
-        shifts = [turn * round((self.start - (low + high) / 2) / turn) for low, high in found]
-        about = [(low + shift, high + shift) for (low, high), shift in zip(found, shifts, strict=True)]
-        here = next(((low, high) for low, high in about if low < self.start < high), None)
+        about, here = _about(self.levers, self.start)
+        if not about:
+
+            def moves(length: float) -> bool:
+                levers = levers_of(changed(keys, **{hindered.name: length}))
+                try:
+                    closed(levers)
+                except ParameterError:
+                    return _about(levers, self.start)[1] is not None
+                return True
+
+            raise nearer(hindered, moves)
         if here is None:
             low, high = min(about, key=lambda ends: min(abs(self.start - end) for end in ends))
             ends = math.degrees(low), math.degrees(high)

@@ -425,13 +425,19 @@ def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Pat
         (("crank_length=30", "first=slider", "coupler_length=20", "start_angle_deg=-50"), "start_angle_deg",
          "links_do_not_meet", -41.8093),
         (("crank_length=30", "first=slider", "coupler_length=20", "guide_height=50.1"), "coupler_length",
-         "rod_does_not_reach", 80.1001),
+         # what closes as the crank stands, by the height of its end; so below: by C of the lever, by A and the pivot
+         "rod_does_not_reach", 50.1),
         (("crank_length=30", "first=slider", "coupler_length=90", "second=slider"), "second", "lever_needed", None),
         (("crank_length=30", "frame_length=30", "lever_length=90"), "start_angle_deg", "links_do_not_meet", 0.001),
         (("crank_length=30", "frame_length=30", "lever_length=90", "sheet=a.dxf"), "frame_length",
          "stone_through_pivot", None),
-        (("assignment=1", "rod_length=50"), "rod_length", "rod_does_not_reach", 200.8801),
-        (("assignment=4", "coupler_length=900"), "coupler_length", "rods_do_not_close", 517.9994),
+        (("assignment=1", "rod_length=50"), "rod_length", "rod_does_not_reach",
+         200.88 * math.cos(math.radians(6.86777))),
+        (("assignment=4", "coupler_length=900"), "coupler_length", "rods_do_not_close",
+         294 + abs(364 - cmath.rect(140, math.radians(20)))),
+        # the frame less crank and lever; before: what closes at every angle, 890 mm
+        (("crank_length=100", "first=rods", "frame_length=1000", "coupler_length=270", "lever_length=210"),
+         "coupler_length", "rods_do_not_close", 690.0),
         (("assignment=4", "measured.pe=30"), "pe", "no_such_name", None),
         (("assignment=8", "measured.pid=30"), "pid", "no_such_name", None),
         # πd told twice: it was a traceback

@@ -106,6 +106,8 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "negative tolerance": ({}, {"tolerance": "-0.1"}, "exports[1].tolerance", "-0.1", "at least"),
     "R12 of an stl": ({}, {"format": '"stl"', "dxf_version": '"R12"'}, "exports[1].dxf_version", "R12", "remove"),
     "printing on a laser": ({}, {"purpose": '"print"'}, "exports[1].purpose", "print", "laser"),
+    "a purpose of other formats, like none of its own": (
+        {}, {"format": '"pdf"', "purpose": '"animation"'}, "exports[1].purpose", "animation", "part, assembly"),
     "path as export name": ({}, {"name": '"../x"'}, "exports[1].name", "../x", "letters"),
     "stl finer than its numbers": ({"module": "1000"}, {"format": '"stl"', "tolerance": "1e-6"},
                                    "exports[1].tolerance", "1e-06", "at least"),
