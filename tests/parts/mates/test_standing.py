@@ -62,6 +62,8 @@ STANDING: dict[str, tuple[Raw, float, int, float, float, tuple[Any, ...]]] = {
     "lantern": (pair("lantern_pair", LANTERN, COG), 120.0, 30, 0.0, 90.0, ("external", 10, 30)),
     "loose lantern": (pair("lantern_pair", LANTERN, COG | {"pin_clearance": 0.1}), 120.0, 30, 0.1, 90.0,
                       ("external", 10, 30)),
+    "on a gear": (pair("lantern_pair", COG | {"pin_clearance": 0.1}, LANTERN), 120.0, 10, 0.1, 30.0,
+                  ("external", 30, 10)),
     "cycloidal": (pair("cycloidal_pair", PINS, DISC), 2.5, 11, 0.0, 27.5, ("internal", 12, 11)),
     "output": (pair("output_pins", DISC, OUTPUT), 2.5, 6, 0.0, 23.0, ("internal", 1, 1)),
     # opposite ovals: half a turn lays each onto itself; greatest radius 1.4 times the least, both together the distance
@@ -129,7 +131,9 @@ def test_a_rack_stands_off_along_itself(number: int, backlash: float | None) -> 
 
 
 # how the second turns as the first does, both on fixed axes: the ratio of their teeth
-TURNS = {"external": -20 / 31, "internal": 1 / 3, "in a ring": 3.0, "lantern": -1 / 3, "cycloidal": 1.0}
+TURNS = {
+    "external": -20 / 31, "internal": 1 / 3, "in a ring": 3.0, "lantern": -1 / 3, "on a gear": -3.0, "cycloidal": 1.0
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", TURNS)
@@ -264,8 +268,12 @@ def test_the_gear_of_a_lantern_stands_midway_between_its_plates() -> None:
     assert matings(STANDING["lantern"][0])[0].height == 3.0 + (9.0 - 6.0) / 2
     assert matings(pair("lantern_pair", LANTERN | {"pins": "holes"}, COG))[0].height == 3.0
     assert matings(pair("lantern_pair", LANTERN, COG, height=0.5))[0].height == 0.5
+    assert matings(pair("lantern_pair", COG, LANTERN))[0].height == -4.5
+    assert matings(pair("lantern_pair", COG, LANTERN, height=0.5))[0].height == -0.5
     raw = STANDING["lantern"][0]
     check_limit(raw, "mates[1]: parts.b.face_width", "not_between_the_plates", 9.0, "at_most", near=3e-5)
+    turned = pair("lantern_pair", COG, LANTERN)
+    check_limit(turned, "mates[1]: parts.a.face_width", "not_between_the_plates", 9.0, "at_most", near=3e-5)
 
 
 def test_what_is_fixed_and_what_turns_about_an_axis() -> None:
@@ -335,6 +343,7 @@ LOBES: list[tuple[Raw, str, object, str, object]] = [
     (pair("lantern_pair", LANTERN, COG), "mates[1]: parts.b.number_of_pins", 11, "not_of_the_lantern", 10),
     (pair("lantern_pair", LANTERN, COG), "mates[1]: parts.b.pin_circle_diameter", 60.1, "not_of_the_lantern", 60.0),
     (pair("lantern_pair", LANTERN, COG), "mates[1]: parts.b.pin_diameter", 8.1, "not_of_the_lantern", 8.0),
+    (pair("lantern_pair", COG, LANTERN), "mates[1]: parts.a.pin_diameter", 8.1, "not_of_the_lantern", 8.0),
     (pair("pin_seat", PINS, {"kind": "pin", "diameter": 8.0, "length": 20.0}), "mates[1]: parts.b.diameter", 8.1,
      "not_of_the_seats", 8.0),
     (scenes()["cam and roller"], "mates[1]: parts.b.diameter", 16.1, "cam_has_another", 16.0),

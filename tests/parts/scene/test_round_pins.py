@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from typing import Any
@@ -220,6 +221,33 @@ def test_lantern_pair() -> None:
         _, checks = checked({"lantern": LANTERN, "gear": GEAR}, [mate], put)
         assert checks["mates"][0].get("verdict") == verdict
         assert has_bad_verdict(checks) is (verdict is None)
+
+
+@pytest.mark.parametrize("turn", [-0.3, 0.0, 0.3])
+def test_a_lantern_on_a_gear_that_stands_is_that_gear_on_its_lantern(turn: float) -> None:
+    # a train of lanterns grows from the great wheel on, and from the escape wheel back
+    loose = GEAR | {"pin_clearance": 0.2}
+    parts = {"gear": loose, "lantern": LANTERN}
+    mate = {"kind": "lantern_pair", "first": "gear", "second": "lantern", "direction_deg": 25.0}
+    stand = {"gear": {"at": [5.0, 2.0, 3.0], "rotation_deg": 13.0}, "lantern": {}}
+    placing, checks = checked(parts, [mate], stand, drives=[{"instance": "gear", "turns": 1.0}])
+    assert checks["mates"][0]["verdict"] == "clear"
+    assert placing.turns[0] == pytest.approx({"gear": 1.0, "lantern": -3.0})
+    gear, lantern = placing.instances
+    assert (lantern.centre - gear.centre) == pytest.approx(cmath.rect(120.0, math.radians(25.0)))
+    # a lantern of 10 pins that is ahead is as its gear of 30 teeth a third as far ahead
+    x, y = lantern.centre.real, lantern.centre.imag
+    ahead = {"at": [x, y, 0.0], "rotation_deg": math.degrees(lantern.rotation) + turn}
+    _, one = checked(parts, [mate], stand | {"lantern": ahead})
+    back = {"kind": "lantern_pair", "first": "lantern", "second": "gear"}
+    as_placed = ahead | {"rotation_deg": math.degrees(lantern.rotation)}
+    turned = stand["gear"] | {"rotation_deg": 13.0 + turn / 3}
+    _, two = checked(parts, [back], {"lantern": as_placed, "gear": turned})
+    found, other = one["mates"][0], two["mates"][0]
+    assert found["gap"] == pytest.approx(other["gap"], abs=1e-9)
+    # of one sense the flanks on the other side are nearest
+    assert found["point"] == pytest.approx(other["point"], abs=1e-4)
+    assert found["gap"] == pytest.approx(0.2 - math.radians(abs(turn)) * 30.0, abs=1e-3)
 
 
 # kind of part, changed keys, the key that is blamed
