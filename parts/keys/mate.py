@@ -33,9 +33,9 @@ def further(direction_deg: float, angle: float) -> float:
     return found if abs(found) <= _TURN else math.fmod(found, _TURN)
 
 
-def height(text: str, most: float = _FAR) -> Meta:
+def height(text: str, most: float = _FAR, example: float = 0.0) -> Meta:
     """A height with another meaning."""
-    return mm(text, least=-most, most=most, example=0.0)
+    return mm(text, least=-most, most=most, example=example)
 
 
 Height = Annotated[float, height("lower face of the second above that of the first")]

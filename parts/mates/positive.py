@@ -10,6 +10,7 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
+from parts.base.registry import KINDS
 from parts.keys.mate import direction, height
 from parts.mates.follower import travelled
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 # contact is a gap within this part of the lowest follower's distance from the axis
 _CONTACT = 1e-8
-_Height = Annotated[float, height("how far the second one's lower face stands above the first one's", 10_000)]
+_HEIGHT = "how far the second one's lower face stands above the first one's; default: "
 
 
 class ConjugateCamsSpec(MateKeys, tag="conjugate_cams", kw_only=True):
@@ -29,7 +30,7 @@ class ConjugateCamsSpec(MateKeys, tag="conjugate_cams", kw_only=True):
 
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="instance of the conjugate_cam made from it")]
-    height: _Height = 0.0
+    height: Annotated[float, height(f"{_HEIGHT}upon the first one", 10_000, 10.0)] | None = None
 
 
 class CamYokeSpec(MateKeys, tag="cam_yoke", kw_only=True):
@@ -38,7 +39,7 @@ class CamYokeSpec(MateKeys, tag="cam_yoke", kw_only=True):
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="instance of the yoke_frame made from it")]
     direction_deg: Annotated[float, direction("direction in which the yoke rises")] = 90.0
-    height: _Height = 0.0
+    height: Annotated[float, height(f"{_HEIGHT}0, of rollers upon the first one", 10_000, 10.0)] | None = None
 
 
 class ConjugateMating(Touching):
@@ -111,6 +112,11 @@ def _lowest(cam: DiskCam) -> float:
     return float(abs(cam.reference_point(0.0)))
 
 
+def _above(height: float | None, first: End[DiskCam]) -> float:
+    """The height that a scene gives, or that of the first part, mm."""
+    return KINDS[first.kind].height(first.keys, first.thing) if height is None else height
+
+
 class ConjugateCams(MateKind[ConjugateCamsSpec, "DiskCam", "SecondCam"]):
     """Two disks with one follower."""
 
@@ -123,7 +129,12 @@ class ConjugateCams(MateKind[ConjugateCamsSpec, "DiskCam", "SecondCam"]):
         if other.first != cam:
             raise ParameterError("of", None, "made_from_another_cam")
         return ConjugateMating(
-            *self.joined(keys), height=keys.height, module=_lowest(cam), has_contact=False, cam=cam, other=other
+            *self.joined(keys),
+            height=_above(keys.height, first),
+            module=_lowest(cam),
+            has_contact=False,
+            cam=cam,
+            other=other,
         )
 
 
@@ -140,7 +151,8 @@ class CamYoke(MateKind[CamYokeSpec, "DiskCam", "YokeFrame"]):
             raise ParameterError("of", None, "made_from_another_cam")
         return YokeMating(
             *self.joined(keys),
-            height=keys.height,
+            # a plate with pins lies upon the cam, faces stand about it
+            height=(keys.height or 0.0) if cam.is_flat else _above(keys.height, first),
             module=_lowest(cam),
             normal_backlash=frame.play,
             # flat faces touch the cam; of a plate with pins the rollers do

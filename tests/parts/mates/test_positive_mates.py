@@ -61,6 +61,17 @@ def test_a_conjugate_pair_stands_on_one_axis_turned_alike() -> None:
     assert stand["two"].rotation == pytest.approx(math.radians(70))
 
 
+@pytest.mark.parametrize(
+    ("keys", "second", "mate", "wide"),
+    [(FIRST["with"], SECOND, "conjugate_cams", 1.0), (ROLLERS, YOKE, "cam_yoke", 1.0), (FLAT, YOKE, "cam_yoke", 0.0)],
+)
+def test_what_would_stand_within_its_cam_stands_upon_it(keys: Keys, second: Keys, mate: str, wide: float) -> None:
+    """Without a height both disks, a cam and a plate with rollers, ran into each other; faces stand about their cam."""
+    data = scene_from_toml(text({"cam": keys | {"face_width": 7.0}, "two": second}, mate, ""), "s.toml", "s")
+    stand = {i.id: i for i in plan_build(data, "s.toml", [], []).placing.instances}
+    assert stand["two"].at[2] == 7.0 * wide
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("cam", [FLAT, FLAT | {"follower_offset": 4.0}, ROLLERS])
 def test_a_yoke_touches_from_both_sides(cam: Keys) -> None:
