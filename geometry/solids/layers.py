@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -59,6 +59,13 @@ class Contour(Record, dict=True):
         """Starts and ends of its lines."""
         lines = [e for e in self.edges if isinstance(e, Line)]
         return np.array([e.start for e in lines], complex), np.array([e.end for e in lines], complex)
+
+    def lines_near(self, box: tuple[float, float, float, float]) -> tuple[Complex, Complex]:
+        """Starts and ends of the lines between its points that may come into a box."""
+        start, end = self.points, np.roll(self.points, -1)
+        corners = np.array([complex(*box[::2])]), np.array([complex(*box[1::2])])
+        near = boxes_meet(*_boxes(start, end), *corners)[:, 0]
+        return start[near], end[near]
 
     def span(self, place: complex) -> tuple[float, float]:
         """Least and greatest distance of the contour from a place, mm."""
@@ -115,7 +122,8 @@ class Layers(Record, dict=True):
             own = [(f"layers[{number}].contours[{k}]", c) for k, c in enumerate(layer.contours, 1)]
             above = self.layers[number].contours if number < len(self.layers) else ()
             beside = [(f"layers[{number + 1}].contours[{k}]", c) for k, c in enumerate(above, 1)]
-            for (one, first), (two, second) in combinations([*own, *beside], 2):
+            pairs = (pair for k, a in enumerate(own, 1) for pair in product((a,), (*own[k:], *beside)))
+            for (one, first), (two, second) in pairs:
                 # what goes on is one wall
                 same = first == second and two.startswith(f"layers[{number}].")
                 if same or (first != second and _crosses(first, second)):
@@ -245,17 +253,16 @@ def _crosses(one: Contour, two: Contour) -> bool:
         if round_one.circle is not None:
             least, greatest = other.span(round_one.circle[0])
             return least <= round_one.circle[1] <= greatest
-    p, q = one.points, two.points
-    (p_end, q_end), (u, v) = (np.roll(x, -1) for x in (p, q)), (np.roll(x, -1) - x for x in (p, q))
-
-    def sides(way: Complex, start: Complex, points: Complex) -> Real:
-        return np.asarray((np.conj(way)[:, None] * (points[None, :] - start[:, None])).imag)
-
-    over = sides(u, p, q) * sides(u, p, q_end) <= 0
-    under = sides(v, q, p) * sides(v, q, p_end) <= 0
+    (p, p_end), (q, q_end) = one.lines_near(b), two.lines_near(a)
     # two on one line lie on no side of each other, wherever they are
-    near = boxes_meet(*_boxes(p, p_end), *_boxes(q, q_end))
-    return bool((over & under.T & near).any())
+    i, j = np.nonzero(boxes_meet(*_boxes(p, p_end), *_boxes(q, q_end)))
+    p, p_end, q, q_end = p[i], p_end[i], q[j], q_end[j]
+
+    def sides(way: Complex, start: Complex, end: Complex) -> Real:
+        return np.asarray((np.conj(way) * start).imag * (np.conj(way) * end).imag)
+
+    over, under = sides(p_end - p, q - p, q_end - p), sides(q_end - q, p - q, p_end - q)
+    return bool(((over <= 0) & (under <= 0)).any())
 
 
 def _boxes(starts: Complex, ends: Complex) -> tuple[Complex, Complex]:
