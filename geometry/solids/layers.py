@@ -8,9 +8,8 @@ neighbours lie within each other or apart; they neither cross nor touch.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import pairwise
 
 import numpy as np
 
@@ -88,6 +87,24 @@ class Contour(Record, dict=True):
         return Profile(tuple(Segment(e, Label.HOLE if hole else Label.BODY) for e in edges))
 
 
+class Nest(Record, dict=True):
+    """Contours that lie within each other or apart."""
+
+    contours: tuple[Contour, ...]
+
+    @cached_property
+    def corners(self) -> tuple[Complex, Complex]:
+        """The lowest and the highest corners of their boxes."""
+        x, y = np.array([c.box for c in self.contours]).reshape(-1, 2, 2).transpose(1, 2, 0)
+        return x[0] + 1j * y[0], x[1] + 1j * y[1]
+
+    def about(self, one: Contour) -> list[Contour]:
+        """Those that a contour lies within."""
+        (low, high), (x, x_end, y, y_end) = self.corners, one.box
+        near = (low.real < x) & (high.real > x_end) & (low.imag < y) & (high.imag > y_end)
+        return [self.contours[k] for k in np.flatnonzero(near).tolist() if _within(one, self.contours[k])]
+
+
 class Layer(Record):
     """So thick, mm, within an odd number of contours."""
 
@@ -108,7 +125,8 @@ class Layers(Record, dict=True):
     @cached_property
     def _depths(self) -> list[dict[Contour, bool]]:
         """For each layer its contours, and whether each is a hole."""
-        return [{c: is_hole(c, layer.contours) for c in layer.contours} for layer in self.layers]
+        nests = [Nest(layer.contours) for layer in self.layers]
+        return [{c: len(nest.about(c)) % 2 == 1 for c in nest.contours} for nest in nests]
 
     def checked(self) -> Layers:
         """Refuse contours that cross or touch in a layer, or one layer's and the next one's.
@@ -122,7 +140,11 @@ class Layers(Record, dict=True):
             own = [(f"layers[{number}].contours[{k}]", c) for k, c in enumerate(layer.contours, 1)]
             above = self.layers[number].contours if number < len(self.layers) else ()
             beside = [(f"layers[{number + 1}].contours[{k}]", c) for k, c in enumerate(above, 1)]
-            pairs = (pair for k, a in enumerate(own, 1) for pair in product((a,), (*own[k:], *beside)))
+            every = [*own, *beside]
+            lowest, highest = Nest(tuple(c for _, c in every)).corners
+            boxes = ((lowest[k : k + 1], highest[k : k + 1]) for k in range(len(own)))
+            near = enumerate(boxes_meet(*box, lowest, highest)[0] for box in boxes)
+            pairs = ((every[k], every[j]) for k, meets in near for j in np.flatnonzero(meets).tolist() if j > k)
             for (one, first), (two, second) in pairs:
                 # what goes on is one wall
                 same = first == second and two.startswith(f"layers[{number}].")
@@ -141,12 +163,14 @@ class Layers(Record, dict=True):
         found = {(k, c): 0 for k, depths in enumerate(self._depths) for c, hole in depths.items() if not hole}
         found = {key: number for number, key in enumerate(found)}
         for k, (low, high) in enumerate(pairwise(self._depths)):
+            nests = [Nest(tuple(side)) for side in (low, high)]
             for inner in {**low, **high}:
-                owners = [_owner(inner, side) for side in (low, high)]
+                owners = [_owner(inner, nest) for nest in nests]
                 if owners[0] is None or owners[1] is None:
                     continue
                 one, two = found[k, owners[0]], found[k + 1, owners[1]]
-                found = {key: one if number == two else number for key, number in found.items()}
+                if one != two:
+                    found = {key: one if number == two else number for key, number in found.items()}
         return found
 
     def region(self, offset: float = 0.0) -> Region:
@@ -154,7 +178,8 @@ class Layers(Record, dict=True):
         outers = ((c, depths) for depths in self._depths for c, hole in depths.items() if not hole)
         outer, depths = max(outers, key=lambda found: _extent(found[0]))
         inside = [c for c, hole in depths.items() if hole and _within(c, outer)]
-        held = [c for c in inside if _nested(c, [*inside, outer]) == 1]
+        nest = Nest((*inside, outer))
+        held = [c for c in inside if nest.about(c) == [outer]]
         return Region(outer.moved(offset, hole=False), tuple(c.moved(offset, hole=True) for c in held))
 
     def body(self, offset: float = 0.0) -> Body:
@@ -200,34 +225,29 @@ class Layers(Record, dict=True):
         edges = [c for c in {**low, **high} if (c in low) != (c in high)]
         both = [c for c in low if c in high]
         loops = {c: made.loop(profiles[c, {**low, **high}[c]], z) for c in edges}
-        depth = {c: _nested(c, (*edges, *both)) for c in (*edges, *both)}
+        nest, sides = Nest((*edges, *both)), [(side, Nest(tuple(side))) for side in (low, high)]
+        about = {c: nest.about(c) for c in nest.contours}
+        # those just within each one
+        inner: dict[Contour, list[Contour]] = {c: [] for c in nest.contours}
+        for c in edges:
+            for outer in (o for o in about[c] if len(about[o]) == len(about[c]) - 1):
+                inner[outer].append(c)
         for outer in edges:
-            states = [_nested(outer, [*side]) % 2 == (outer not in side) for side in (low, high)]
-            if states[0] == states[1]:
-                continue
-            inner = [c for c in edges if depth[c] == depth[outer] + 1 and _within(c, outer)]
-            made.cap(loops[outer], [loops[c] for c in inner], up=states[0])
+            states = [len(own.about(outer)) % 2 == (outer not in side) for side, own in sides]
+            if states[0] != states[1]:
+                made.cap(loops[outer], [loops[c] for c in inner[outer]], up=states[0])
 
 
-def _owner(contour: Contour, depths: dict[Contour, bool]) -> Contour | None:
+def _owner(contour: Contour, nest: Nest) -> Contour | None:
     """The outline of the material of a layer just within a contour; None where there is none."""
-    about = [c for c in depths if c == contour or _within(contour, c)]
-    return max(about, key=lambda c: _nested(c, about)) if len(about) % 2 else None
+    about = [*nest.about(contour), *(c for c in nest.contours if c == contour)]
+    inmost = Nest(tuple(about))
+    return max(about, key=lambda c: len(inmost.about(c))) if len(about) % 2 else None
 
 
 def _extent(contour: Contour) -> float:
     low_x, high_x, low_y, high_y = contour.box
     return (high_x - low_x) * (high_y - low_y)
-
-
-def is_hole(contour: Contour, contours: Sequence[Contour]) -> bool:
-    """Whether what is just within a contour of a layer is no material."""
-    return _nested(contour, contours) % 2 == 1
-
-
-def _nested(contour: Contour, others: Sequence[Contour]) -> int:
-    """In how many of the others a contour lies."""
-    return sum(_within(contour, other) for other in others if other is not contour and other != contour)
 
 
 def _within(one: Contour, two: Contour) -> bool:

@@ -13,7 +13,7 @@ from operator import attrgetter
 
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
-from geometry.solids.layers import Contour, Layers, is_hole
+from geometry.solids.layers import Contour, Layers, Nest
 from parts.bodies.layered import CircleTable, LayeredSpec, LayerTable, OutlineTable, PolygonTable
 from parts.bodies.patterns import Repeated, repeated
 from parts.bodies.plate import SlotTable
@@ -124,8 +124,9 @@ def _across(
     patterns = [*repeated([_shape(one) for one, _ in new], sorted(large, key=str))]
     alike = frozenset[int]().union(*(pattern.members for pattern in patterns))
     places = [complex(*p) for k, (one, _) in enumerate(new) if k not in alike for p in _places(one)]
+    nest = Nest(tuple(contours))
     holes, solid = (
-        [c.circle for _, c in new if c.circle is not None and is_hole(c, contours) == way] for way in (True, False)
+        [c.circle for _, c in new if c.circle is not None and len(nest.about(c)) % 2 == way] for way in (True, False)
     )
     chains = [contour.edges for _, contour in new if contour.circle is None]
     axes = [
