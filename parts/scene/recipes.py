@@ -40,17 +40,19 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
         prefix, made = _made(in_one(raw, table, source, place), source, place)
+        # one assembly alone is called by no name
+        beside = f" ({prefix[:-1]})" if prefix and len(raw["assemblies"]) > 1 else ""
         for name, found in named.items():
             for key, own in getattr(made, name).items():
                 if prefix + key in found:
                     part, own_name = prefix + key, table.get("name")
                     raise SceneError(source, f"{place}.name", own_name, "assemblies_share", None, "", part=part)
-                found[prefix + key] = _named(own, prefix, told)
+                found[prefix + key] = _named(own, prefix, beside, told)
                 origins[f"{name}.{prefix}{key}"] = f"{place}: {name}.{prefix}{key}"
         before = {name: len(rows) for name, rows in listed.items()}
         for name, rows in listed.items():
             for own in getattr(made, name):
-                rows.append(_named(own, prefix, told))
+                rows.append(_named(own, prefix, beside, told))
                 origins[f"{name}[{len(rows)}]"] = f"{place}: {name}[{len(rows)}]"
         for there, origin in made.origins.items():
             head, _, rest = there.partition(".")
@@ -113,11 +115,14 @@ def _made_good(recipe: Recipe[Any], keys: Any, refusal: ParameterError) -> Param
     return refusal.told_of(refusal.name, refusal.value, cure)
 
 
-def _named(table: Table, prefix: str, told: Words) -> Table:
-    """A table with the assembly's name before every id in it, its title in the scene's language."""
+def _named(table: Table, prefix: str, beside: str, told: Words) -> Table:
+    """A table with the assembly's name before every id in it, its title in the scene's language, the name beside it."""
     found = dict(table)
     if "title" in found:
-        found["title"] = told.say(found["title"])
+        title = told.say(found["title"])
+        stem, _, number = title.rpartition(" ")
+        # the number of a row of instances stands last
+        found["title"] = f"{stem}{beside} {number}" if number.isdigit() else title + beside
     for key in [key for key in _NAMING if table.get(key) is not None]:
         found[key] = [prefix + one for one in table[key]] if isinstance(table[key], list) else prefix + table[key]
     if isinstance(holes := table.get("holes"), list):

@@ -13,7 +13,7 @@ from exporters.production.check_lines import names_of
 from parts.base.part import Part
 from parts.base.registry import KINDS
 from parts.base.texts import told_in
-from parts.scene.load import load_scene
+from parts.scene.load import load_scene, make_parts
 
 SCENE = """
 [parts.pinion]
@@ -284,3 +284,12 @@ def test_what_a_recipe_makes_is_called_in_the_language_of_the_scene(scene: str) 
         names = names_of(made.instances, parts)
         assert len(set(names.values())) == len(names)
         assert not [name for name in names.values() if not re.fullmatch(rf"[{letters}'’() 0-9]+", name)]
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_of_two_assemblies_of_one_kind_each_part_is_called_by_its_own(language: str) -> None:
+    made = load_scene("compound_two_stage", language)
+    names = names_of(made.instances, make_parts(made, "")[0])
+    assert len(set(names.values())) == len(names)
+    assert [names[f"{one}_sun"].endswith(f" ({one})") for one in ("first", "second")] == [True, True]
+    assert [names[f"first_satellite_{k}"].endswith(f" (first) {k}") for k in (1, 2, 3)] == [True] * 3
