@@ -127,7 +127,11 @@ def shape_of(content: Content) -> Shape:
     """
     row = REGISTRY[content.kind.name]
     # the rounding of the file's numbers takes its share of the tolerance first
-    made: Shape = row.shape(content, content.tolerance - row.rounding(content))
+    left = content.tolerance - (rounding := row.rounding(content))
+    if left <= 0:
+        found = limit(2 * rounding, content.tolerance, digits=6)
+        raise ParameterError("tolerance", content.tolerance, "finer_than_digits", found)
+    made: Shape = row.shape(content, left)
     return made
 
 

@@ -45,13 +45,15 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     failures += _cap_failures(body, corners[~upright], declared)
     worst, edges = 0.0, [np.inf]
     border = 0.0
-    for pair, walls in _walls_by_height(body).items():
+    between = [body.height(w) for w in body.walls if not body.is_upright(w)]
+    for (start, end, aslant), walls in _walls_by_height(body):
+        pair = start, end
         mine = upright & (low >= pair[0]) & (high <= pair[1])
-        if any(body.is_upright(w) for w in walls):
+        if not aslant:
             mine &= (low == pair[0]) & (high == pair[1])
-        if body.has_screws() and all(body.is_upright(w) for w in walls):
-            # a slice of a screw surface may stand between the same heights
-            mine &= _stands(mesh, mesh.triangles)
+            if any(a[0] < pair[1] and a[1] > pair[0] for a in between):
+                # a slice of a screw surface or of a chamfer may stand between the same heights
+                mine &= _stands(mesh, mesh.triangles)
         upright &= ~mine
         for verdict, length in _verify_walls(mesh, mesh.triangles[mine], pair, body, walls, declared, tolerance):
             failures += verdict.failures
@@ -100,13 +102,13 @@ def _stands(mesh: ReadMesh, triangles: Triangles) -> Flags:
     return np.asarray(np.any(corners == np.roll(corners, 1, axis=1), axis=1))
 
 
-def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
-    """The walls between each two levels, without screw surfaces."""
-    found: dict[tuple[float, float], list[Wall]] = {}
+def _walls_by_height(body: Body) -> list[tuple[tuple[float, float, bool], list[Wall]]]:
+    """The walls between each two levels, without screw surfaces: those that stand upright, then those aslant."""
+    found: dict[tuple[float, float, bool], list[Wall]] = {}
     for wall in body.walls:
         if not body.is_screw(wall):
-            found.setdefault(body.height(wall), []).append(wall)
-    return found
+            found.setdefault((*body.height(wall), not body.is_upright(wall)), []).append(wall)
+    return sorted(found.items(), key=lambda item: item[0][2])
 
 
 def _cap_failures(body: Body, corners: Real, declared: float) -> list[str]:

@@ -22,10 +22,10 @@ Depth = Annotated[float, mm("depth of the engraving", least=0.01, most=100)]
 Marks = Sequence["tuple[Profile, float]"]
 # of the room between a wheel's inner and outer circle: the mark, and what is left clear at its ends
 _MARK, _CLEAR = 0.3, 0.08
-# of digits where no key says it, mm; of that height, the width of the mark
-_MOST_HEIGHT, _WIDE = 8.0, 1 / 8
+# of digits, mm, the least and the most where no key says it; of that height, the width of the mark
+_LEAST_HEIGHT, _MOST_HEIGHT, _WIDE = 0.1, 8.0, 1 / 8
 
-_HEIGHT = mm("height of the digits; default: as the room allows", above=0, most=1000, example=2.0)
+_HEIGHT = mm("height of the digits; default: as the room allows", least=_LEAST_HEIGHT, most=1000, example=2.0)
 
 
 class ToothMarkTable(Struct, forbid_unknown_fields=True):
@@ -60,8 +60,6 @@ def tooth_mark(
     low, high = room
     wide, clear = high - low, _CLEAR * (high - low)
     length = _MARK * wide
-    if not wide > 0:
-        raise ParameterError("tooth_mark.depth", table.depth, "no_room_for_digits", Nearest(None))
 
     def fits(height: float) -> bool:
         half = half_size(number, height)
@@ -69,12 +67,16 @@ def tooth_mark(
         top = abs(complex(foot + 2 * half.imag, half.real))
         return top <= high - clear and 2 * half.imag <= wide - length - 3 * clear
 
+    if not fits(_LEAST_HEIGHT):
+        raise ParameterError("tooth_mark.depth", table.depth, "no_room_for_digits", Nearest(None))
     height = table.height
     if height is None:
         height = next(h for k in range(99) if fits(h := min(wide, _MOST_HEIGHT) * 0.9**k))
     elif not fits(height):
         given = height
-        raise ParameterError("tooth_mark.height", given, "no_room_for_digits", lambda: nearest(fits, given, 1e-6))
+        raise ParameterError(
+            "tooth_mark.height", given, "no_room_for_digits", lambda: nearest(fits, given, _LEAST_HEIGHT)
+        )
     half, stroke = half_size(number, height).imag, _WIDE * height
     # the mark at the teeth, the digits on the other side of it
     start = low + clear if inside else high - clear - length

@@ -176,3 +176,18 @@ def test_a_dented_chamfer_of_a_mesh_is_caught(share: float, tmp_path: Path) -> N
     inner = np.flatnonzero((mesh.vertices[:, 2] > 0.01) & (mesh.vertices[:, 2] < CHAMFER - 0.01))
     mesh.vertices[inner[round(share * (len(inner) - 1))], :2] *= 1 - 2e-3 / 12
     assert any("deviates" in failure for failure in verify_mesh(mesh, work.exact, declared, 0.0005).failures)
+
+
+@pytest.mark.parametrize("depth", [0.1, CHAMFER, 0.4])
+def test_an_engraving_beside_a_chamfer_is_measured_however_deep_it_is(depth: float, tmp_path: Path) -> None:
+    """Before: one no deeper than the chamfer failed its check. One that is moved along is caught."""
+    part = {"kind": "spur_gear", **GEAR, "face_chamfer": CHAMFER, "number_of_teeth": 17, "tooth_mark": {"depth": depth}}
+    scene = scene_from_dict({"parts": {"g": part}, "exports": [{"format": "stl"}]}, "test", "test")
+    work = plan_build(scene, "test", [], []).jobs[0]
+    made, file = shape_of(work), tmp_path / work.path
+    REGISTRY["stl"].write(work, made, file)
+    mesh, declared = read_stl(file), declared_error(work, made)[0]
+    assert verify_mesh(mesh, work.exact, declared, 0.01).failures == ()
+    # all that lies within the root circle
+    mesh.vertices[np.hypot(*mesh.vertices[:, :2].T) < 14.0, 0] += 0.1
+    assert any("deviates" in failure for failure in verify_mesh(mesh, work.exact, declared, 0.01).failures)
