@@ -17,7 +17,8 @@ from exporters.drawings.write import BEARING
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
-from parts.drawing.canvas import FRAME, STYLES, Run
+from parts.drawing.canvas import FRAME, STYLES
+from parts.drawing.font import Run
 from parts.drawing.readback import PER_CURVE, ReadSheet, base_line
 
 if TYPE_CHECKING:

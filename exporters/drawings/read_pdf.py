@@ -13,7 +13,8 @@ import numpy as np
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
-from parts.drawing.canvas import STYLES, Run, Style
+from parts.drawing.canvas import STYLES, Style
+from parts.drawing.font import Run
 from parts.drawing.readback import PER_CURVE, ReadArc, ReadSheet, base_line
 
 _POINT = 72 / 25.4

@@ -17,8 +17,9 @@ from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve, distance_to_curves
 from parts.base.texts import N_, fault
-from parts.drawing.canvas import Box, Canvas, Run
+from parts.drawing.canvas import Box, Canvas
 from parts.drawing.expected import Expected, Meshing
+from parts.drawing.font import Run
 from parts.drawing.readback import PER_CURVE, ReadSheet, Taken
 
 # share of the paper's size that numbers of a file may be off

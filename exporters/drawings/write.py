@@ -17,9 +17,9 @@ from geometry.approximation.outline import CadCurve
 from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.bspline import BSpline
 from geometry.curves.line_arc import Arc, Line
-from parts.drawing.canvas import STYLES, TEXT_HEIGHT, Canvas, Dimension, Run
+from parts.drawing.canvas import STYLES, TEXT_HEIGHT, Canvas, Dimension
 from parts.drawing.dimensioning import ARROW
-from parts.drawing.font import CAPITAL
+from parts.drawing.font import CAPITAL, Run
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

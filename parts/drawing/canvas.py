@@ -26,7 +26,7 @@ from geometry.curves.curve import Carried, Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.psv import rows_of
 from parts.base.texts import words
-from parts.drawing.font import letter_widths
+from parts.drawing.font import Run, letter_widths
 from parts.keys.sheet import Scale, scale_value
 
 # heights of capitals, mm; GOST 2.304. An index is one smaller
@@ -81,19 +81,6 @@ class Stroke(Record):
 
 # a size with its number, of one word
 _SIZE = re.compile(r"\S+ = -?\d")
-
-
-class Run(Record):
-    """A piece of text in one line and height: left end of its base line, height of a capital and length, mm.
-
-    ``way``: along its base line: 1; 1j to be read from the right, -1 from above.
-    """
-
-    text: str
-    at: complex
-    height: float
-    width: float
-    way: complex = 1.0
 
 
 class Box(Record):

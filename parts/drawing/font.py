@@ -1,4 +1,6 @@
-"""The letters of sheets: DejaVu Sans Condensed, under the licence beside it, whose widths every renderer keeps."""
+"""The letters of sheets and what is set in them: DejaVu Sans Condensed, under the licence beside it, whose widths every
+renderer keeps.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +9,24 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
+from geometry.base.record import Record
+
 FONT = Path(__file__).parent / "fonts" / "DejaVuSansCondensed.ttf"
 # height of a capital as a part of the font's size
 CAPITAL = 1493 / 2048
+
+
+class Run(Record):
+    """A piece of text in one line and height: left end of its base line, height of a capital and length, mm.
+
+    ``way``: along its base line: 1; 1j to be read from the right, -1 from above.
+    """
+
+    text: str
+    at: complex
+    height: float
+    width: float
+    way: complex = 1.0
 
 
 def missing_letters(text: str) -> str:

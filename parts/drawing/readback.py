@@ -9,7 +9,7 @@ import numpy as np
 from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
 from parts.base.texts import fault, unless
-from parts.drawing.canvas import Run
+from parts.drawing.font import Run
 
 # samples of each curve, or of each smooth span of it
 PER_CURVE = 13

@@ -236,6 +236,11 @@ class UnrolledWall(Record):
     middle: float
     is_flat = False
 
+    @property
+    def radius(self) -> float:
+        """Radius of the roller at the outer cylinder, mm."""
+        return float(self.cam.radius_at(self.cam.outer))
+
     def stop(self, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
         """Cam angle at which an outline's (p, n) touches the roller, and the height of its axis there; NaN if never.
 
@@ -248,7 +253,7 @@ class UnrolledWall(Record):
             # the tangent of the angle about the roller's axis, were the cylinder flat
             steep = np.where(normal.imag * self.side < 0, -normal.real / np.abs(normal.imag), np.nan)
         lean = np.arctan(steep)
-        at = -polar + np.arcsin(np.clip(float(cam.radius_at(outer)) * np.sin(lean) / outer, -_SIDE, _SIDE))
+        at = -polar + np.arcsin(np.clip(self.radius * np.sin(lean) / outer, -_SIDE, _SIDE))
         for _ in range(_TOUCHES):
             place, turn = cam.place(at, 1), polar + at
             size = cam.radius_at(outer * np.cos(turn))

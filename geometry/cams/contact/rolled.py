@@ -111,7 +111,10 @@ class Stopped(Protocol):
     @property
     def is_flat(self) -> bool:
         """Whether a face touches."""
-        ...
+
+    @property
+    def radius(self) -> float:
+        """Radius of what touches, 0 of a point and of a face, mm."""
 
     def stop(self, point: Complex, normal: Complex, offset: float) -> tuple[Real, Real]:
         """Cam angle at which an outline's (p, n) touches the follower, and how high it stands then; NaN if never."""
@@ -124,8 +127,11 @@ class Outline(Record):
     edges: tuple[Edges, ...]
     order: Index
 
-    def families(self, *, hollow: bool) -> list[Edges]:
-        """The edges and the turns of the normal about the convex corners between them, or about the ``hollow`` too."""
+    def families(self, *, less: bool) -> list[Edges]:
+        """The edges and the turns of the normal about the convex corners between them.
+
+        What is ``less`` than a point passes from edge to edge about the hollow corners too, and by exact turns alone.
+        """
         whole: list[Edges] = [e for e in self.edges if len(e)]
         every = [np.arange(len(e)) for e in whole]
         starts = [e.at(i, np.zeros(len(i))) for e, i in zip(whole, every, strict=True)]
@@ -136,10 +142,10 @@ class Outline(Record):
         between = np.angle(np.roll(outward, -1) / before)
         # beside cusps digits turn the ends of splines; a point of the outline stops no follower too high. Both fans are
         # kept: where a guide's reach ends within the wide one, the narrow one still touches
-        fans = (0.0, _BEYOND) if any(isinstance(e, Smooth) for e in whole) else (0.0,)
+        fans = (0.0, _BEYOND) if any(isinstance(e, Smooth) for e in whole) and not less else (0.0,)
         for beyond in fans:
             turn = between + 2 * beyond
-            mine = turn != 0 if hollow else turn > 0
+            mine = turn != 0 if less else turn > 0
             first = np.angle(before[mine]) - beyond
             whole.append(Rounds(corner[mine], np.zeros(int(mine.sum())), first, turn[mine]))
         return whole
@@ -195,8 +201,7 @@ def _stopped(cam: Stopped, outline: Outline, count: int, offset: float, below: b
     # stops at the angles themselves, and such as are known beside them alone
     lift, near = np.full((2, count), -np.inf)
     step = TURN / count
-    # what is less than a point passes from edge to edge about hollow corners; a roller comes to none
-    for family in outline.families(hollow=offset > 0 and not cam.is_flat):
+    for family in outline.families(less=offset > cam.radius and not cam.is_flat):
         # a face that lies on a line touches its ends at the same angle
         if not len(family) or (cam.is_flat and isinstance(family, Lines)):
             continue

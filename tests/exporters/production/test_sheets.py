@@ -19,7 +19,8 @@ from exporters.production.build import build
 from exporters.production.plan import plan_build
 from exporters.production.sheets import SheetJob
 from parts.base.refusal import SceneError
-from parts.drawing.canvas import Box, Run, Text, text_of
+from parts.drawing.canvas import Box, Text, text_of
+from parts.drawing.font import Run
 from parts.drawing.labels import spread
 from parts.scene.load import load_scene, scene_from_dict
 from tests.exporters.making import run
