@@ -58,7 +58,8 @@ class PartMeasures(Record):
     def check(self, sheet: ReadSheet, taken: Taken) -> None:
         """Hold the file against the model."""
         worst = 0.0
-        drawn = {name: [points for layer, points in sheet.samples if layer == name] for name, _ in sheet.samples}
+        layers = dict.fromkeys(name for name, _ in sheet.samples)
+        drawn = {name: [points for layer, points in sheet.samples if layer == name] for name in layers}
         reaches = {name: np.array([points[[0, -1]] for points in runs]) for name, runs in drawn.items()}
         for paper, layer, curve in self.outlines:
             ends = curve.point(np.array(curve.domain)) * paper.scale + paper.origin
