@@ -6,11 +6,12 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 
 from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Complex, Curve, Real
 from geometry.plane.profile import Profile
 
 # what is one place, mm
@@ -43,27 +44,35 @@ def summits(curve: Curve, way: complex) -> Iterator[complex]:
 
 def reach(profile: Profile, angle: float) -> float:
     """How far a profile about the origin is from there in a direction (rad), mm."""
-    return max(crossings(profile, 0j, cmath.rect(1.0, angle)))
+    return max(crossings(sampled(profile), 0j, cmath.rect(1.0, angle)))
 
 
-def crossings(profile: Profile, start: complex, way: complex) -> list[float]:
+class Sampled(NamedTuple):
+    """The curves of an outline with places along each, a row a curve: their parameters, their points."""
+
+    curves: list[Curve]
+    t: Real
+    points: Complex
+
+
+def sampled(profile: Profile) -> Sampled:
+    """An outline, to be asked more than once where lines cross it."""
+    curves = [segment.curve for segment in profile.segments()]
+    t = np.array([np.linspace(*curve.domain, _SAMPLES) for curve in curves])
+    return Sampled(curves, t, np.array([curve.point(row) for curve, row in zip(curves, t, strict=True)]))
+
+
+def crossings(outline: Sampled, start: complex, way: complex) -> list[float]:
     """How far from a place along a direction of length 1 an outline crosses the straight line through both, mm."""
-    found, ends = [], []
-    for segment in profile.segments():
-        curve = segment.curve
-        t = np.linspace(*curve.domain, _SAMPLES)
-        seen = (curve.point(t) - start) / way
-        above = seen.imag >= 0
-        ends.append((above[0], above[-1], float(seen[0].real)))
-        for k in np.flatnonzero(above[:-1] != above[1:]):
-            # an end that all but lies on the line may be off it to the other side where it is asked for alone
-            sides = float(seen[k].imag), float(seen[k + 1].imag)
-            off = partial(_off, curve, start, way)
-            at = bracketed_root(off, float(t[k]), float(t[k + 1]), at_ends=sides).value
-            found.append(((complex(curve.point(at)) - start) / way).real)
+    found, seen = [], (outline.points - start) / way
+    above = seen.imag >= 0
+    for row, k in np.argwhere(above[:, :-1] != above[:, 1:]).tolist():
+        # an end that all but lies on the line may be off it to the other side where it is asked for alone
+        curve, t, sides = outline.curves[row], outline.t[row], (float(seen[row, k].imag), float(seen[row, k + 1].imag))
+        at = bracketed_root(partial(_off, curve, start, way), float(t[k]), float(t[k + 1]), at_ends=sides).value
+        found.append(((complex(curve.point(at)) - start) / way).real)
     # where segments meet on the line itself rounding puts their ends on one side or on both
-    found += [at for (_, before, _), (after, _, at) in zip(ends[-1:] + ends[:-1], ends, strict=True) if before != after]
-    return found
+    return found + seen[above[:, 0] != np.roll(above[:, -1], 1), 0].real.tolist()
 
 
 def _off(curve: Curve, start: complex, way: complex, t: float) -> float:

@@ -23,7 +23,7 @@ from geometry.solids.keyways import depth_deviation
 from geometry.solids.splines import SplineBore, StraightJoint
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
-from parts.drawing.extent import crossings, farthest, reach, summits
+from parts.drawing.extent import Sampled, crossings, farthest, reach, sampled, summits
 from parts.drawing.places import apart, circled, place_sizes
 from parts.drawing.revolved import Loop, below, block, closed, outlined, seen_edges
 from parts.drawing.working import (
@@ -201,19 +201,19 @@ def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[t
 
 def _edges_behind(profile: Profile) -> list[float]:
     """Heights of the corners behind the upright plane through the axis that no wall stands before."""
-    curves = [segment.curve for segment in profile.segments()]
-    heights = []
+    outline, heights = sampled(profile), list[float]()
+    curves = outline.curves
     for before, after in zip((curves[-1], *curves[:-1]), curves, strict=True):
         corner = start_point(after)
         ways = before.tangent(before.domain[1]), after.tangent(after.domain[0])
-        if corner.real > _NONE and abs(complex(ways[1] - ways[0])) > _SMOOTH and _stands_free(profile, corner):
+        if corner.real > _NONE and abs(complex(ways[1] - ways[0])) > _SMOOTH and _stands_free(outline, corner):
             heights.append(corner.imag)
     return heights
 
 
-def _stands_free(profile: Profile, at: complex) -> bool:
+def _stands_free(outline: Sampled, at: complex) -> bool:
     """Whether no wall stands between the upright plane through the axis and a place behind it."""
-    return not any(_NEAR < x < at.real - _NEAR for x in crossings(profile, 1j * at.imag, 1.0))
+    return not any(_NEAR < x < at.real - _NEAR for x in crossings(outline, 1j * at.imag, 1.0))
 
 
 def _beyond(wheel: Wheel, way: int) -> list[float]:
@@ -224,7 +224,8 @@ def _beyond(wheel: Wheel, way: int) -> list[float]:
     if outline is None or wheel.stands or wheel.root is not None or wheel.grooves or wheel.bevel:
         return []
     tops = [at for s in outline.segments() for at in summits(s.curve, way * 1j) if at.real > -_NEAR]
-    heights = [way * y for y in _edges_behind(outline)] + [way * at.imag for at in tops if _stands_free(outline, at)]
+    all_along = sampled(outline)
+    heights = [way * y for y in _edges_behind(outline)] + [way * at.imag for at in tops if _stands_free(all_along, at)]
     toothed = any(s.label is Label.FLANK for s in outline.period)
     found = sorted({round(y, _DIGITS) for y in heights if y > tip + _NEAR})
     return found[-1:] if toothed else found

@@ -19,7 +19,7 @@ from geometry.plane.profile import Label, Profile, Segment, circle
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.windows import RoundHoles
 from parts.drawing.canvas import Box, Canvas, text_of, text_width
-from parts.drawing.extent import crossings, farthest, reach
+from parts.drawing.extent import crossings, farthest, reach, sampled
 from parts.drawing.ink import Ink
 from parts.drawing.labels import Labeller, nearest, spread
 from parts.drawing.places import apart, circled, place_sizes, spans
@@ -68,12 +68,12 @@ def test_crossings_of_a_circle_and_a_line_are_those_of_the_quadratic() -> None:
     start, way = -7 + 2j, cmath.rect(1.0, 0.1)
     foot = -(start / way).real
     half = math.sqrt(25 - (start / way).imag ** 2)
-    assert sorted(crossings(profile, start, way)) == pytest.approx([foot - half, foot + half], abs=1e-9)
-    assert crossings(profile, 6j, 1 + 0j) == []
+    assert sorted(crossings(sampled(profile), start, way)) == pytest.approx([foot - half, foot + half], abs=1e-9)
+    assert crossings(sampled(profile), 6j, 1 + 0j) == []
     # the seam at angle 0 too, which was lost
     for angle in (0.0, 1.0, -2.0):
         assert reach(profile, angle) == pytest.approx(5.0, abs=1e-9)
-        assert sorted(crossings(profile, 0j, cmath.rect(1.0, angle))) == pytest.approx([-5.0, 5.0], abs=1e-9)
+        assert sorted(crossings(sampled(profile), 0j, cmath.rect(1.0, angle))) == pytest.approx([-5.0, 5.0], abs=1e-9)
 
 
 @pytest.mark.parametrize("turn", np.arange(24) * math.pi / 12)
@@ -83,7 +83,7 @@ def test_an_outline_whose_corners_lie_on_the_line_is_crossed_there(turn: float) 
     sides = [Segment(Line(a, b), Label.BORE) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
     square = Profile(tuple(sides), 1)
     assert reach(square, turn) == pytest.approx(10.0, abs=1e-9)
-    assert len(crossings(square, 0j, cmath.rect(1.0, turn))) == 2
+    assert len(crossings(sampled(square), 0j, cmath.rect(1.0, turn))) == 2
 
 
 def hides(*ranges: tuple[float, float]) -> Callable[[np.ndarray], np.ndarray]:
