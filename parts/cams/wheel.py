@@ -120,6 +120,11 @@ class Turned(Kind[K, T]):
         """Of the rim."""
         return self.body(keys, thing).face_width
 
+    def middle(self, keys: K, thing: T) -> float:
+        """The height in the middle of what the chamfers leave of the face, mm."""
+        body = self.body(keys, thing)
+        return (body.chamfer_below + body.face_width - body.chamfer_above) / 2
+
     def is_plate(self, keys: K, thing: T) -> bool:
         """Without hub and chamfers."""
         return self.body(keys, thing).is_plate

@@ -404,7 +404,7 @@ class DiskKind(Turned[K, T]):
         """The follower, rolled over every file."""
         from parts.cams.probes import TurningProbe
 
-        return (TurningProbe(thing, self.height(keys, thing) / 2),)
+        return (TurningProbe(thing, self.middle(keys, thing)),)
 
 
 # rollers are kept below this share of the least convex radius of the pitch curve

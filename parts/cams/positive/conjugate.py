@@ -283,7 +283,7 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
         def profile(offset: float) -> Profile:
             return self.outline(thing, offset)[0]
 
-        return (TurningProbe(thing.cam, thing.width / 2, profile, thing.pair.turn),)
+        return (TurningProbe(thing.cam, self.middle(keys, thing), profile, thing.pair.turn),)
 
 
 CONJUGATE_CAM = ConjugateCam()

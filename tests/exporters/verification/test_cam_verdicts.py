@@ -142,6 +142,14 @@ def test_a_hole_that_no_double_holds_is_refused(
     assert "diameter = 1e-11" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("side", ["below", "above"])
+def test_the_follower_is_rolled_between_the_chamfers(side: str, tmp_path: Path) -> None:
+    """Before: at half of the width, within a chamfer beyond it, where the file failed its check."""
+    keys = scenes()["offset roller"]["parts"]["p"] | {"face_width": 8.0, "face_chamfer": {side: 5.0}}
+    scene = write_scene(tmp_path / "s.toml", {"p": keys}, [{"format": "stl"}])
+    assert run("build", scene, "--out", tmp_path / "out") == 0
+
+
 def accepted(raw: Raw, folder: Path) -> str:
     """What is wrong with the files of a scene that was accepted, nothing of one that is refused."""
     try:
