@@ -145,6 +145,11 @@ class Mating(Joined, kw_only=True):
         return ((Fixed if self.bond == "fixed" else Revolute)(self.second, on=self.first),)
 
     @property
+    def asked_turn(self) -> float | None:
+        """Turn of the second in the first's frame that a key of the mate asks for, rad; None: no key does."""
+        return None
+
+    @property
     def holds(self) -> tuple[str, ...]:
         """Instances that stand still by this mate."""
         return ()

@@ -80,6 +80,11 @@ class FixedMating(Mating):
     bond = "fixed"
     turns_axis = True
 
+    @property
+    def asked_turn(self) -> float | None:
+        """Of ``fixed`` itself; seats are turned as they stand on their holder."""
+        return self.rotation if self.kind == Fixed.name else None
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Carried along by the first; it has no direction of its own."""
         # what is turned over turns the other way about its own axis

@@ -39,7 +39,8 @@ class Condition(Record):
     """What two placed instances must satisfy: ``value`` within ``tolerance`` of ``required``.
 
     ``code`` with unit: "centre_distance" mm, "apex_distance" mm, "shaft_angle" degrees, "phase" (rotation of the
-    second) degrees, "common_face_width" mm (at least), "train" (turns of the second for one of the first).
+    second) degrees, "fixed_phase" (the same in the first's frame), "common_face_width" mm (at least), "train" (turns of
+    the second for one of the first).
     """
 
     code: str
@@ -342,8 +343,11 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     if found.slides:
         conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
     else:
-        turned, right = math.degrees(mate.second.rotation), math.degrees(mate.second.rotation - off)
-        conditions.append(Condition("phase", turned, right, math.degrees(found.play + found.slack(allowed)), met))
+        # where a key of the mate turns the second, that key is what makes it fit
+        asked = mate.mating.asked_turn
+        code, turn = ("phase", mate.second.rotation) if asked is None else ("fixed_phase", asked + off)
+        slack = math.degrees(found.play + found.slack(allowed))
+        conditions.append(Condition(code, math.degrees(turn), math.degrees(turn - off), slack, met))
     return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)
 
 

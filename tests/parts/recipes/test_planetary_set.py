@@ -437,3 +437,16 @@ def test_pins_may_be_as_thick_as_the_satellites_let_them(pin: float) -> None:
     # the holes of shaft and handle stand apart
     assert parts["crank"].keys.arm_length > (6.0 + pin) / 2
     assert refusal(**keys, pin_diameter=42.0).key == "assemblies[1].pin_diameter"
+
+
+def test_a_second_stage_that_does_not_fit_is_told_the_turn_of_its_own_mate(tmp_path: Path) -> None:
+    text = built_in_scenes()["compound_two_stage"].read_text("utf-8")
+    for asked, met in ((234.0, True), (30.0, False)):
+        (tmp_path / "s.toml").write_text(text.replace("rotation_deg = 234.0", f"rotation_deg = {asked}"), "utf-8")
+        made = load_scene(str(tmp_path / "s.toml"))
+        stand = place(made.instances, made.drives, *make_parts(made, ""), "")
+        (found,) = [c for mate in stand.mates for c in mate.conditions if c.code == "fixed_phase" and c.required]
+        assert found.met is met
+        assert found.required == pytest.approx(asked)
+        # the sun has twelve or ten teeth: what fits comes again with each
+        assert math.remainder(found.value - 234.0, 36.0) == pytest.approx(0.0, abs=1e-9)
