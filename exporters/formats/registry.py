@@ -128,7 +128,8 @@ def shape_of(content: Content) -> Shape:
     row = REGISTRY[content.kind.name]
     # the rounding of the file's numbers takes its share of the tolerance first
     left = content.tolerance - (rounding := row.rounding(content))
-    if left <= 0:
+    if left <= 0 and row.shape is not _chords:
+        # of meshes more is asked
         found = limit(2 * rounding, content.tolerance, digits=6)
         raise ParameterError("tolerance", content.tolerance, "finer_than_digits", found)
     made: Shape = row.shape(content, left)
