@@ -14,13 +14,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from exporters.formats.read_curves import Curves, Flags, Frames, Knots, Patches, lobatto
+from exporters.formats.read_curves import Curves, Frames, Knots, Patches, lobatto
 from exporters.formats.read_part21 import Entities, Index, Row
 from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model, Uses, refuse
 from exporters.formats.read_surfaces import measure
 from geometry.base.record import replace
 from geometry.base.vectors import cross
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Real
 from parts.base.readback import ReadError, refuse_if
 
 # spans of arcs at most, rad, as polynomials off by 6e-12 of the radius, and degree of splines: integrals over them are

@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from exporters.formats.read_curves import Curves, Flags, Frames, Patches, lobatto, spans_of
+from exporters.formats.read_curves import Curves, Frames, Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Real
 from parts.base.readback import ReadError
 
 # axes are upright, and heights are one, so well: 1 - cosine, mm

@@ -11,12 +11,12 @@ from functools import cache
 
 import numpy as np
 
-from exporters.formats.read_curves import Flags, Patches, lobatto, spans_of
+from exporters.formats.read_curves import Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index
 from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model, refuse
 from geometry.base.record import Record
 from geometry.base.vectors import cross
-from geometry.curves.curve import Real
+from geometry.curves.curve import Flags, Real
 from parts.base.readback import ReadError
 
 # a seam whose spans turn less than this round the axis of a torus runs round its tube, rad

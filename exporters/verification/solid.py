@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from exporters.formats.read_curves import Flags, lobatto, spans_of
+from exporters.formats.read_curves import lobatto, spans_of
 from exporters.formats.read_part21 import Index
 from exporters.formats.read_solid import LEVEL, PLANE, SQUARE, Model
 from exporters.formats.read_step import ReadSolid
@@ -14,7 +14,7 @@ from exporters.verification.copies import copy_failures
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
-from geometry.curves.curve import Complex, Real
+from geometry.curves.curve import Complex, Flags, Real
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_nearest, distance_to_profile
 from geometry.plane.profile import Profile

@@ -53,7 +53,6 @@ class BandFaces(WormRings):
     def __init__(self, body: WormBody, band: Band, tolerance: float) -> None:
         super().__init__(body)
         self.band, self.lines = band, band.lines
-
         alike = band.cells(self.step, REST)
         self.kinds = alike
         # every cell by itself
