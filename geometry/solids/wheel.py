@@ -26,8 +26,10 @@ Rim = Callable[["BodyBuilder", float], tuple[int, int]]
 _KEPT_SHARE = 0.1
 # diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
 _LEAST_STEP = 0.05
-# lower steps and chamfers are none, mm
+# lower steps and chamfers are none, walls between chamfers no lower, mm
 _LEAST_HEIGHT = 1e-3
+# a height that is told works, though its sums round
+_ROUNDING = 1e-6
 # depths of a chamfer that differ by rounding only have one section, mm
 _DEPTH_DIGITS = 12
 
@@ -136,16 +138,20 @@ def _check_heights(shape: WheelShape) -> None:
 
 def _check_chamfers(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
     """Chamfers leave some wall between them, and with the offset an end face between every two boundaries."""
-    width, both = shape.face_width, shape.chamfer_below + shape.chamfer_above
-    if both > width:
-        key = "below" if shape.chamfer_below >= shape.chamfer_above else "above"
-        other = both - max(shape.chamfer_below, shape.chamfer_above)
-        value = getattr(shape, f"chamfer_{key}")
-        raise ParameterError(f"face_chamfer.{key}", value, "chamfers_meet", limit(max(0.0, width - other), math.inf))
+    _check_wall(shape.face_width, (shape.chamfer_below, shape.chamfer_above), "outline")
     for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
         if not _leaves_faces(shape, root_radius, holes, offset, depth):
             cure = partial(nearest, partial(_leaves_faces, shape, root_radius, holes, offset), depth, 0.0)
             raise ParameterError(f"face_chamfer.{side}", depth, "leaves_no_face_between_edges", cure)
+
+
+def _check_wall(height: float, cuts: tuple[float, float], who: str) -> None:
+    """Chamfers leave some upright wall of a boundary: an edge alone touches nothing, and no file holds a lower wall."""
+    if any(cuts) and height - sum(cuts) < (1 - _ROUNDING) * _LEAST_HEIGHT:
+        key = "below" if cuts[0] >= cuts[1] else "above"
+        code = "chamfers_meet" if all(cuts) else f"chamfer_higher_than_{who}"
+        most = limit(max(0.0, height - min(cuts) - _LEAST_HEIGHT), math.inf)
+        raise ParameterError(f"face_chamfer.{key}", max(cuts), code, most)
 
 
 class _Wheel:
@@ -239,18 +245,16 @@ class _Wheel:
     ) -> tuple[int, int]:
         """The walls of one boundary from its lower to its upper end; returns the loops at both ends."""
         whole = profile(self.offset, 0.0)
-        cuts = [c if flag else 0.0 for c, flag in zip(self.chamfer, chamfered, strict=True)]
-        if sum(cuts) > heights[1] - heights[0]:
-            key = "below" if cuts[0] >= cuts[1] else "above"
-            most = limit(max(0.0, heights[1] - heights[0] - min(cuts)), math.inf)
-            raise ParameterError(f"face_chamfer.{key}", max(cuts), f"chamfer_higher_than_{who}", most)
+        below_cut, above_cut = (c if flag else 0.0 for c, flag in zip(self.chamfer, chamfered, strict=True))
+        cuts = (below_cut, above_cut)
+        _check_wall(heights[1] - heights[0], cuts, who)
         stations = [(heights[0] + cuts[0], whole), (heights[1] - cuts[1], whole)]
         if cuts[0] > 0:
             stations.insert(0, (heights[0], _inset(profile, self.offset, cuts[0], "below", who)))
         if cuts[1] > 0:
             inset = stations[0][1] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
             stations.append((heights[1], inset))
-        loops = list(dict.fromkeys(self.made.loop(p, z) for z, p in stations))
+        loops = [self.made.loop(p, z) for z, p in stations]
         at = cache(partial(profile, self.offset))
 
         def below(z: float) -> Profile:

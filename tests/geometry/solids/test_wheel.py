@@ -177,7 +177,7 @@ def test_any_wheel_is_refused_or_sound(
     [
         (WheelShape(8.0, Web(9.0, 36.0)), "web.thickness", 8.0),
         (WheelShape(8.0, Web(4.0, 36.0, 3.0)), "web.shift", 2.0),
-        (WheelShape(8.0, chamfer_below=5.0, chamfer_above=4.0), "face_chamfer.below", 4.0),
+        (WheelShape(8.0, chamfer_below=5.0, chamfer_above=4.0), "face_chamfer.below", 3.999),
         (WheelShape(8.0, None, Hub(41.5)), "hub.diameter", 40.95),
         (WheelShape(8.0, None, Hub(8.0)), "hub.diameter", 8.05),
         (WheelShape(8.0, Web(4.0, 12.0), Hub(14.0)), "web.rim_diameter", 14.05),
@@ -201,20 +201,26 @@ def test_a_chamfer_that_eats_the_tip_names_the_largest_that_does_not() -> None:
         wheel(WheelShape(20.0, chamfer_below=limit * 1.01), HubHoles())
 
 
-def test_chamfers_may_meet_but_not_cross() -> None:
-    """Together as wide as the face: an edge is left; the larger one is named where they are more, with what works."""
+def test_chamfers_leave_a_wall_between_them() -> None:
+    """At least 0.001 mm of it; the larger one is named where they leave less, with what works.
+
+    Before, they could meet: the files of a cam had no outline for its follower, and of a wheel whose chamfers
+    left 1e-6 mm the STEP and meshes failed.
+    """
 
     def levels(below: float, above: float) -> tuple[float, ...]:
         keys = {"kind": "spur_gear", "module": 4.0, "number_of_teeth": 20, "face_width": 1.2,
                 "face_chamfer": {"below": below, "above": above}}  # fmt: skip
         return tuple(make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0).levels())
 
-    assert levels(0.6, 0.6) == (0.0, 0.6, 1.2)
+    assert levels(0.6, 0.599) == pytest.approx((0.0, 0.6, 0.601, 1.2))
     assert levels(0.5, 0.4) == pytest.approx((0.0, 0.5, 0.8, 1.2))
     for below, above, key, most in (
-        (0.6, 0.6001, "above", 0.6),
-        (0.7, 0.5001, "below", 0.6999),
-        (0.3, 1.0, "above", 0.9),
+        (0.6, 0.6, "below", 0.599),
+        (0.6, 0.599999, "below", 0.599001),
+        (0.6, 0.6001, "above", 0.599),
+        (0.7, 0.5001, "below", 0.6989),
+        (0.3, 1.0, "above", 0.899),
     ):
         with pytest.raises(SceneError) as refused:
             levels(below, above)
@@ -323,12 +329,12 @@ def test_a_web_is_no_thicker_than_its_rim_and_stays_in_it() -> None:
     ("shape", "holes", "key", "who", "most"),
     [
         # hub, rim and holes lower than both chamfers, or than one
-        (WheelShape(8.0, None, Hub(16.0, 0.0, 0.7), 0.0, 0.8), HubHoles(), "above", "hub", 0.7),
-        (WheelShape(8.0, None, Hub(16.0, 0.7, 0.0), 0.8, 0.0), HubHoles(), "below", "hub", 0.7),
-        (WheelShape(8.0, Web(6.9, 30.0), None, 0.0, 0.6), HubHoles(), "above", "rim", 0.55),
-        (WheelShape(8.0, Web(0.5, 30.0, 3.75), None, 0.0, 0.6), HubHoles(RoundBore(6.0)), "above", "bore", 0.5),
+        (WheelShape(8.0, None, Hub(16.0, 0.0, 0.7), 0.0, 0.8), HubHoles(), "above", "hub", 0.699),
+        (WheelShape(8.0, None, Hub(16.0, 0.7, 0.0), 0.8, 0.0), HubHoles(), "below", "hub", 0.699),
+        (WheelShape(8.0, Web(6.9, 30.0), None, 0.0, 0.6), HubHoles(), "above", "rim", 0.549),
+        (WheelShape(8.0, Web(0.5, 30.0, 3.75), None, 0.0, 0.6), HubHoles(RoundBore(6.0)), "above", "bore", 0.499),
         (WheelShape(8.0, Web(0.5, 30.0, -3.75), None, 0.6, 0.0), HubHoles(None, (RoundHoles(4, 3.0, 18.0),)), "below",
-         "hole", 0.5),
+         "hole", 0.499),
     ],
 )  # fmt: skip
 def test_a_chamfer_is_no_higher_than_what_it_runs_along(

@@ -639,3 +639,12 @@ def test_one_chamfer_of_both_faces_is_told_as_one() -> None:
     refusal = refused(keys)
     assert (refusal.key, refusal.code) == ("parts.cam.face_chamfer", "chamfers_meet")
     assert cured(keys, refusal)["cam"]["face_chamfer"] == pytest.approx(4.0, abs=1e-3)
+
+
+def test_a_pointed_cam_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Before: built, and no file of it had an outline for the follower; 0.001 mm of a land is enough."""
+    for chamfer, code in ((4.0, 2), (3.9995, 0)):
+        keys = ROLLER | {"face_width": 8.0, "face_chamfer": chamfer}
+        (tmp_path / "s.toml").write_text(scene_text(keys) + '\n[[exports]]\nformat = "step"\n')
+        assert main(["build", str(tmp_path / "s.toml"), "--out", str(tmp_path / "out")]) == code
+    assert "face_chamfer = 4.0: meets the other chamfer" in capsys.readouterr().err
