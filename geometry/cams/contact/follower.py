@@ -20,7 +20,7 @@ from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.fence import Fence
 from geometry.cams.plane.shape import cam_shape
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact, first_least
 from geometry.plane.distance import Verdict
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Label, Profile
@@ -104,15 +104,15 @@ def judged(
     ``greatest_gap`` is that of both walls.
     """
     nearer = np.minimum(*walls)
-    worst, greatest = int(np.argmin(nearer)), float(max(w.max() for w in walls))
+    worst, greatest = first_least(nearer), float(max(w.max() for w in walls))
     if not all(np.all(np.isfinite(w)) for w in walls):
         verdict = Verdict.UNDECIDED
-    elif nearer[worst] < -tolerance:
+    elif nearer.min() < -tolerance:
         verdict = Verdict.OVERLAP
     else:
         farthest = greatest if both else nearer.max()
         verdict = Verdict.CONTACT if farthest <= tolerance else Verdict.CLEAR
-    place = ContactPlace(float(nearer[worst]), float(places[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
+    place = ContactPlace(float(nearer.min()), float(places[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
     curves = tuple(walls[0].tolist()), tuple(walls[1].tolist())
     return PairContact(verdict, tolerance, tuple(places.tolist()), tuple(nearer.tolist()), curves, place, greatest)
 

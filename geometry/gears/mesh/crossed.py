@@ -16,7 +16,7 @@ from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.curves.involute import Involute
-from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline, told_contact, verdict_of
+from geometry.gears.mesh.search import ContactPlace, PairContact, first_least, gear_outline, told_contact, verdict_of
 from geometry.gears.pairs.crossed import CrossedPair
 from geometry.plane.distance import Boundary, Feet, Flags, Indices, Verdict, folded
 from geometry.plane.profile import Label
@@ -155,7 +155,7 @@ class _Teeth:
                 column[kept] = new
             margin /= 2
         np.minimum.at(found, places.drive, places.gap)
-        worst = places.take(np.array([places.gap.argmin()]))
+        worst = places.take(np.array([first_least(places.gap)]))
         _, spoke, at = self.seen(worst)
         nearest = self.labels[int(self.feet(spoke, at)[0].curve_index[0])]
         return _Found(found, complex(spoke[0]), (nearest, self.side.segments[int(worst.curve[0])].label))
@@ -220,7 +220,7 @@ def crossed_contact(pair: CrossedPair, phase_off: float = 0.0, tolerance: float 
                 x = least.point if number == 0 else pair.working_centre_distance - least.point.real
                 labels = least.labels if number == 0 else least.labels[::-1]
                 point = complex(x) if way > 0 else complex(x).conjugate()
-                worst = ContactPlace(gap, float(drive[int(least.gaps.argmin())]), point, labels)
+                worst = ContactPlace(gap, float(drive[first_least(least.gaps)]), point, labels)
     assert worst is not None
     searched = np.stack(sides)
     gaps = np.minimum(searched, closed)

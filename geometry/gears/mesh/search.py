@@ -44,6 +44,8 @@ _COMPARED = 0.02
 _NEAR_TEETH, _MOST_NEAR = 2, 4
 # parts of the way from the drive angle of the least gap to its neighbours
 _PARTS = 4
+# mm that gaps differ by for rounding
+_SAME = 1e-9
 # far teeth are excluded by gaps that are known to this part of the module
 _ROUGH = 5e-4
 
@@ -121,10 +123,19 @@ def told_contact(verdict: Verdict, allowed: float, drive: Real, gaps: Real, wors
     return PairContact(verdict, allowed, angles, tuple(least.tolist()), (lower, upper), worst, float(least.max()))
 
 
+def first_least(gaps: Real) -> int:
+    """Where the least of the flattened gaps, mm, is: the first of those that differ by rounding alone.
+
+    Teeth that touch all the way have the same gap at every drive angle, and every processor rounds otherwise.
+    """
+    found = np.flatnonzero(gaps <= gaps.min() + _SAME)
+    return int(found[0]) if found.size else int(gaps.argmin())
+
+
 def flanks_contact(gaps: Real, drive: Real, at: complex, allowed: float) -> PairContact:
     """The verdict on gaps (2, n), mm, of lower and upper flanks at n drive angles; ``at``: where they are told."""
     least = gaps.min(axis=0)
-    worst = ContactPlace(float(least.min()), float(drive[least.argmin()]), at, (Label.FLANK, Label.FLANK))
+    worst = ContactPlace(float(least.min()), float(drive[first_least(least)]), at, (Label.FLANK, Label.FLANK))
     return told_contact(verdict_of(gaps.T, allowed), allowed, drive, gaps.T, worst)
 
 
@@ -174,7 +185,7 @@ class MeshSearch:
         for _ in range(2):
             if _decided(found.gap, allowed):
                 break
-            least = int(np.argmin(found.gap.reshape(-1, 2).min(axis=1)))
+            least = first_least(found.gap.reshape(-1, 2).min(axis=1))
             extra = between(angles, least, self.pitches[0], _PARTS)
             angles, found = _merged(angles, found, extra, least_gaps(self, extra, far=far))
         sides = found.gap.reshape(-1, 2)
@@ -272,10 +283,10 @@ class MeshSearch:
     def place(self, drive: Real, found: Gaps) -> ContactPlace:
         """The place of the least gap in the frame of the line of centres."""
         gap = np.where(np.isfinite(found.gap), found.gap, math.inf)
-        group = int(np.argmin(gap))
+        group = first_least(gap)
         labels = self.first_segments[found.first_index[group]].label, self.segments[found.second_index[group]].label
         angle = float(drive[group // 2])
-        return ContactPlace(float(found.gap[group]), angle, complex(found.point[group]) * cmath.exp(1j * angle), labels)
+        return ContactPlace(float(gap.min()), angle, complex(found.point[group]) * cmath.exp(1j * angle), labels)
 
 
 class FarTeeth(NamedTuple):

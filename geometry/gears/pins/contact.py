@@ -14,7 +14,7 @@ import numpy as np
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline, told_contact, verdict_of
+from geometry.gears.mesh.search import ContactPlace, PairContact, first_least, gear_outline, told_contact, verdict_of
 from geometry.gears.pins.cycloidal import CycloidalDisc
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.distance import Indices, least_in_brackets
@@ -140,7 +140,7 @@ def pin_contact(
 
 def _worst(gap: _Gap, phases: Real, values: Real, others: tuple[ContactPlace, ...]) -> ContactPlace:
     """The least gap of all, with its place on the body's outline."""
-    at = float(phases[int(np.argmin(values))])
+    at = float(phases[first_least(values)])
     distance, _, index, normal = gap(np.array([at]))
     centre, _ = gap.motion.centre(np.array([at]))
     foot = complex(centre[0] - (distance[0] + gap.motion.pin_radius) * normal[0])

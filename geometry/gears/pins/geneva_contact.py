@@ -15,7 +15,7 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
-from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
+from geometry.gears.mesh.search import ContactPlace, PairContact, first_least, told_contact, verdict_of
 from geometry.gears.pins.contact import PIN_CONTACT_TOLERANCE
 from geometry.gears.pins.geneva import GenevaDisc
 from geometry.plane.distance import Boundary, Indices
@@ -122,6 +122,6 @@ class GenevaContact(Record, dict=True):
 
 def _least(turns: Real, gaps: Real, places: Complex, kinds: Indices) -> ContactPlace:
     """The least gap of several turns."""
-    k = int(np.argmin(gaps))
+    k = first_least(gaps)
     labels = (Label.PIN, Label.FLANK) if kinds[k] == 0 else (Label.DWELL, Label.TIP_LAND)
-    return ContactPlace(float(gaps[k]), float(turns[k]), complex(places[k]), labels)
+    return ContactPlace(float(gaps.min()), float(turns[k]), complex(places[k]), labels)

@@ -18,7 +18,7 @@ from geometry.base.record import Record, replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Indices, Real
 from geometry.curves.line_arc import Arc
-from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
+from geometry.gears.mesh.search import ContactPlace, PairContact, first_least, told_contact, verdict_of
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.thread import Thread
 from geometry.gears.worms.wheel import Side, WormTeeth
@@ -154,7 +154,7 @@ def _told(
     Points of the second side are those of its image under half a turn about the line of centres.
     """
     rate = worm.number_of_starts / (worm.parameter * teeth.number_of_teeth)
-    side, place = np.unravel_index(int(gaps.argmin()), gaps.shape)
+    side, place = np.unravel_index(first_least(gaps), gaps.shape)
     labels = (Label.FLANK, Label.FLANK)
     worst = ContactPlace(float(gaps.min()), float(rate * slid[place]), complex(points[side, place]), labels)
     if side == 1:
@@ -222,7 +222,7 @@ def _side(thread: Thread, teeth: WormTeeth, errors: AxisErrors, slid: Real, off:
         for _ in range(_NARROWED):
             flanks = _Flanks(thread.worm, teeth, teeth.centre_distance, teeth.side(heights), errors, part, arc)
             gaps, points, planes = flanks.least(places, off)
-            at = int(gaps.argmin())
+            at = first_least(gaps)
             if whole is None:
                 whole, place = (gaps, points), at
             elif gaps[at] < whole[0][place]:
