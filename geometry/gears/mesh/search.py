@@ -45,7 +45,7 @@ _NEAR_TEETH, _MOST_NEAR = 2, 4
 # parts of the way from the drive angle of the least gap to its neighbours
 _PARTS = 4
 # mm that gaps differ by for rounding
-_SAME = 1e-9
+_SAME = 1e-11
 # far teeth are excluded by gaps that are known to this part of the module
 _ROUGH = 5e-4
 

@@ -14,7 +14,7 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact, first_least, told_contact, verdict_of
+from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.table import CurveTable
 from geometry.plane.distance import Flags, Indices, least_in_brackets, promising
@@ -45,7 +45,7 @@ def noncircular_contact(
         if np.all(np.abs(found.gap) <= allowed) or not np.isfinite(found.gap).all():
             break
         # the least gap, and the greatest of each side's: between their neighbours
-        places = {first_least(found.gap.min(axis=1)), *np.argmax(found.gap, axis=0).tolist()}
+        places = {int(np.argmin(found.gap.min(axis=1))), *np.argmax(found.gap, axis=0).tolist()}
         more = np.array([arcs[i] + step * x for i in sorted(places) for x in (-0.5, -0.25, 0.25, 0.5)])
         step /= 4
         arcs, found = np.concatenate([arcs, more]), found.joined(mesh.gaps(more))
@@ -70,13 +70,13 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
     drive = pair.rotations(arcs)[0]
     order = np.argsort(drive)
     gap, drive = found.gap[order], drive[order]
-    worst, side = divmod(first_least(gap), 2)
+    worst, side = divmod(int(np.argmin(gap)), 2)
     row = int(order[worst])
     labels: tuple[Label, Label] = (
         pair.first.outline.segments[found.first[row, side]].label,
         pair.second.outline.segments[found.second[row, side]].label,
     )
-    place = ContactPlace(float(gap.min()), float(drive[worst]), complex(found.point[row, side]), labels)
+    place = ContactPlace(float(gap[worst, side]), float(drive[worst]), complex(found.point[row, side]), labels)
     return told_contact(verdict_of(gap, allowed), allowed, drive, gap, place)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -51,6 +52,22 @@ def test_an_old_processor_writes_the_same_files(tmp_path: Path, here: Callable[[
     """Splines, arcs, meshes and STEP: before, 16 of these files differed."""
     for scene in some_of(["print_gear", "lantern_pair"]):
         assert unlike(elsewhere([scene], OLD, tmp_path / scene), here(scene)) == []
+
+
+def test_an_old_processor_tells_the_same_place_of_contact() -> None:
+    """Teeth that touch all the way have the same gap everywhere: where it is least, rounding must not choose."""
+
+    def checked(machine: dict[str, str]) -> list[dict[str, object]]:
+        command = [sys.executable, "-m", "exporters", "check", "practicum_pair", "idler_train", "--json"]
+        environment = {**os.environ, **machine, "PYTHONPATH": str(ROOT)}
+        told = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, check=True).stdout
+        return [mate for scene in json.loads(told) for mate in scene["mates"]]
+
+    one, other = checked({}), checked(OLD)
+    assert len(one) > 2
+    for own, old in zip(one, other, strict=True):
+        assert own["drive_angle_deg"] == pytest.approx(old["drive_angle_deg"], abs=1e-6)
+        assert own["point"] == pytest.approx(old["point"], abs=1e-6)
 
 
 def stl(triangles: list[list[int]]) -> bytes:
