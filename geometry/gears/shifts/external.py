@@ -115,8 +115,7 @@ def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
     tangent = number_of_teeth / 2 * sine - (rack.form_dedendum - shift) / sine
     if tangent >= 0:
         return tangent
-    gear = SpurGear(1.0, number_of_teeth, rack, shift)
-    return form_length(gear.fillet(), gear.flank())
+    return form_length(SpurGear(1.0, number_of_teeth, rack, shift))
 
 
 def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:

@@ -213,8 +213,7 @@ def pinion_form(pair: InternalShiftPair, shift: float) -> float:
 
     nan where the fillet leaves no tooth.
     """
-    gear = pair.pinion(shift)
-    return form_length(gear.fillet(), gear.flank())
+    return form_length(pair.pinion(shift))
 
 
 @lru_cache(maxsize=256)

@@ -19,6 +19,7 @@ from geometry.curves.involute import Involute
 if TYPE_CHECKING:
     from geometry.curves.cutter_fillet import CutterFillet
     from geometry.curves.trochoid import RackFillet
+    from geometry.gears.teeth.spur import SpurGear
 
 GearFillet: TypeAlias = "RackFillet | CutterFillet"
 
@@ -58,12 +59,12 @@ def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet,
     return replace(fillet, end=crossing), replace(flank, start_roll=flank.roll_at_radius(radius))
 
 
-def form_length(fillet: GearFillet, flank: Involute) -> float:
+def form_length(gear: SpurGear) -> float:
     """Length along the flank's normal from the base circle to where the fillet leaves it; nan where it leaves none."""
     try:
-        _, left = fillet_flank_joint(fillet, flank)
+        _, left = fillet_flank_joint(gear.fillet(), gear.flank())
     except (ConvergenceError, ParameterError):
-        # far below the last shift that leaves a tooth no fillet has a point at all
+        # far below the last shift that leaves a tooth no fillet has a point at all, and no cutter an angle
         return math.nan
     return left.start_roll * left.base_radius
 

@@ -27,7 +27,7 @@ from geometry.gears.shifts.internal import (
     margins,
     window,
 )
-from geometry.gears.shifts.internal_shifts import InternalShiftPair, interferences, internal_state
+from geometry.gears.shifts.internal_shifts import InternalShiftPair, interferences, internal_state, pinion_form
 from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter
@@ -289,6 +289,12 @@ def crosses(pair: InternalShiftPair, point: complex) -> bool:
 def test_beside_a_line_exactly_its_check_fails_or_passes(pair: InternalShiftPair, expected: set[str]) -> None:
     seen = sides_told_apart(pair, 4)
     assert {name for name, count in seen.items() if count} >= expected
+
+
+def test_a_shift_that_no_cutter_makes_has_no_involute() -> None:
+    """Contours are sought beyond the shifts that leave a tooth."""
+    assert math.isnan(pinion_form(SHAPED, -0.9))
+    assert pinion_form(SHAPED, 0.0) > 0
 
 
 @pytest.mark.heavy
