@@ -245,6 +245,13 @@ def test_numbers_of_texts_have_points_as_those_beside_them_do(file: Path) -> Non
     assert not mixed
 
 
+def test_degrees_after_a_number_that_no_plural_counts_are_short_in_ukrainian() -> None:
+    """A number of any size has one form only in ``град``: ``359.282 градусів`` was told of a wall."""
+    (file,) = (f for f in catalogue_files() if f.parts[-3] == "uk")
+    one = [str(m.string) for m in texts_of(file) if not m.pluralizable]
+    assert [text for text in one if re.search(r"\} градус", text)] == []
+
+
 def test_the_reference_diameter_has_one_name_in_ukrainian() -> None:
     """That of GOST 2.403, in tables of drawings and on pages."""
     (file,) = (f for f in catalogue_files() if f.parts[-3] == "uk")

@@ -42,6 +42,7 @@ _SHOWN = (
 _OF_SYSTEM = (
     N_("No such file or directory"), N_("Permission denied"), N_("Is a directory"), N_("Not a directory"),
     N_("No space left on device"), N_("Read-only file system"), N_("File name too long"), N_("File exists"),
+    N_("Operation not permitted"),
 )  # fmt: skip
 _EXAMPLES = """
   higherpair build practicum_pair

@@ -313,5 +313,8 @@ class Kind(Generic[K, T]):
         chamfered = bool(getattr(keys, "face_chamfer", 0.0))
 
         error = placed(source, place, told, unit_of(self.keys, told.name))
+        # a part may reckon with another number than the one in its file: the shift in the transverse section
+        if isinstance(told.value, float) and isinstance(typed := value_at(keys, told.name), float):
+            error.value = typed
         error.offer(cure)
         return error

@@ -268,14 +268,14 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
     def outline(self, thing: FollowerEnd, offset: float) -> tuple[Profile, tuple[object, ...]]:
         """The circle."""
         if not thing.radius + offset > 0:
-            raise OffsetError(offset, "no_rim", -thing.radius * (1 - 1e-6))
+            raise OffsetError(offset, "leaves_no_rim", -thing.radius * (1 - 1e-6))
         return circle(thing.radius + offset, Label.BODY), ()
 
     def section(self, keys: RollerSpec, thing: FollowerEnd, offset: float) -> OffsetRegion:
         """The circle with its bore."""
         reach = self.holes(keys, thing).bore_reach
         if reach > 0 and thing.radius + offset <= reach - offset:
-            raise OffsetError(offset, "no_wall", (reach - thing.radius) / 2 * (1 - 1e-6))
+            raise OffsetError(offset, "leaves_no_wall", (reach - thing.radius) / 2 * (1 - 1e-6))
         outer = self.outline(thing, offset)[0]
         return OffsetRegion(Region(outer, self.holes(keys, thing).profiles(offset)), offset, ())
 

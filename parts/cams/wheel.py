@@ -101,7 +101,7 @@ class Turned(Kind[K, T]):
         holes, inside = self.holes(keys, thing), self.inside(thing)
         if not inside + offset > (holes.reach - offset if holes.number else 0.0):
             least = (holes.reach - inside) / 2 if holes.number else -inside
-            raise OffsetError(offset, "no_rim", least * (1 - 1e-9))
+            raise OffsetError(offset, "leaves_no_rim", least * (1 - 1e-9))
         outer, gaps = moved(partial(self.outline, thing), offset, "leaves_no_outline")
         found = (Finding("outline_trimmed", float(len(gaps)), offset),) if gaps else ()
         return OffsetRegion(Region(outer, holes.profiles(offset)), offset, found)

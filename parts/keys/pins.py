@@ -51,7 +51,7 @@ def check_holes(keys: BoredKeys, holes: HubHoles, radius: float, own: int = 0, c
     inside = radius - centre - least_wall(radius)
     if holes.bore is not None and holes.bore_reach > inside and keys.bore_diameter > 0:
         most = most_of(2 * inside, keys.bore_diameter)
-        raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall_about_bore", most)
+        raise ParameterError("bore_diameter", keys.bore_diameter, "no_wall_around_bore", most)
 
     def fits(changed: BoredKeys) -> bool:
         return holes_of(changed, *holes.round_holes[:own]).fits(radius - centre)

@@ -180,7 +180,7 @@ def check_sense(end: FollowerEnd, sense: int) -> None:
 def check_plate(end: FollowerEnd, least: float) -> None:
     """Refuse a plate over whose edge the contact runs; ``least``: its diameter, mm."""
     if end.reach is not None and not 2 * end.reach[1] >= least:
-        raise ParameterError("plate_diameter", 2 * end.reach[1], "contact_over_plate", limit(least, 0.0))
+        raise ParameterError("plate_diameter", 2 * end.reach[1], "contact_over_edge", limit(least, 0.0))
 
 
 def _check_arm(cam: DiskCam, end: FollowerEnd) -> None:

@@ -43,13 +43,13 @@ def step_name(step: Step, words: Words) -> str:
 def result_text(step: Step, words: Words) -> str:
     """Value and unit."""
     unit = unit_text(step.unit, words)
-    gap = "" if unit in ("°", "%") or not unit else " "
+    gap = "" if unit in ("°", "") else " "
     return f"{number(step.value, step.unit)}{gap}{unit}"
 
 
 def equation(step: Step, words: Words) -> str:
     """Symbol = formula = numbers = result, as far as the step has them."""
-    parts = [symbol_text(step.symbol, words)]
+    parts = [symbol_text(step.symbol, words)] if step.symbol else []
     if step.formula:
         parts += [formula_text(step, words), numbers_text(step, words)]
     if len(parts) > 1 and parts[-1] == number(step.value, step.unit, enclosed=True):

@@ -199,5 +199,5 @@ def _check_pins(keys: PinPlateKeys, made: PinPlate) -> None:
     if seat > left:
         most = (left - made.pin_radius) * (1 - MARGIN)
         raise ParameterError(
-            "seat_clearance", clearance, "pin_holes_touch", lambda: nearest(tighter, clearance, most, digits=6)
+            "seat_clearance", clearance, "holes_touch_each_other", lambda: nearest(tighter, clearance, most, digits=6)
         )

@@ -128,7 +128,18 @@ def check_fit(
             if owner == "mate":
                 raise
             owner, key = (pair[0], key) if owner == "first" else (pair[1], refusal.name)
-            raise refusal.renamed(key if owner == part else f"{owner}.{key}") from refusal
+            told = refusal.renamed(key if owner == part else f"{owner}.{key}")
+            if pair[0] != pair[1]:
+                raise told from refusal
+
+            def fits(value: float, mate: MateKeys = mate, spec: MaterialKeys = one.keys, key: str = key) -> bool:
+                changed = tried(spec, key, value)
+                end = End(changed, thing_of(part, changed, {**specs, part: changed}, mates, part_of))
+                check_fit(part, {part: end}, {**specs, part: changed}, [mate], part_of)
+                return True
+
+            # what one of both would have to have, its twin has too
+            raise nearer(told, fits) from refusal
 
 
 def thing_of(
@@ -228,7 +239,7 @@ def pair_refused(
         if refusal.code == "backlash_leaves_no_teeth" and isinstance(gears, list):
             # here gears have names
             ends_of = (mate.first, mate.second)
-            told.numbers["gears"] = [part_of[end] for k, end in enumerate(ends_of, 1) if k in gears]
+            told.numbers["gears"] = [*dict.fromkeys(part_of[end] for k, end in enumerate(ends_of, 1) if k in gears)]
         told.offer(lambda: _tried(refusal, lambda value: mated(ends, [tried(mate, key, value)], part_of)))
         return told
     owner, key = ("first", key) if owner == "first" else ("second", refusal.name)
@@ -258,6 +269,8 @@ def pair_refused(
         turned = pair_refused(other, ends, mate, mates, part_of, source, place)
         if turned.nearest is not None:
             return turned
+    if part_of[mate.first] == part_of[mate.second]:
+        refusal = nearer(refusal, partial(_holds, partial(works, held=[mate])))
     told = placed(source, f"{place}: parts.{part}", refusal.renamed(key), unit_of(type(spec), key))
     told.offer(lambda: _tried(refusal, partial(works, held=[mate]), partial(works, held=mates)))
     found = refusal.nearest

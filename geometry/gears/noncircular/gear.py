@@ -284,7 +284,7 @@ def _check_rolling(gear: NoncircularGear, inset: float) -> None:
     if least < -1e-9 * greatest:
         raise ParameterError("centrode", least, "centrode_concave")
     if not gear.root_radius > inset:
-        raise ParameterError("number_of_teeth", gear.number_of_teeth, "roots_reach_axis")
+        raise ParameterError("number_of_teeth", gear.number_of_teeth, "root_reaches_axis")
     if gear.tip_height - inset <= -gear.root_depth:
         raise UndercutError("undercut", inset, "leaves_no_tooth")
     depth = (gear.rack.rounding_depth - gear.profile_shift_coefficient) * gear.module

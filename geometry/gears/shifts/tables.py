@@ -171,10 +171,17 @@ def gost_16532(first_teeth: int, second_teeth: int, *, kinematic: bool = False) 
     found = tuple(TableShift(*shifts, None, "GOST 16532-70") for holds, shifts in rules if holds)
     if not found and kinematic and first_teeth >= 12:
         least = Nearest(22, "at_least")
-        raise ParameterError("second.number_of_teeth", second_teeth, "no_recommendation_with", least, first=first_teeth)
+        raise ParameterError(
+            "second.number_of_teeth",
+            second_teeth,
+            "no_recommendation_with",
+            least,
+            teeth=second_teeth,
+            first=first_teeth,
+        )
     if not found:
         least = Nearest(12 if kinematic else 10, "at_least")
-        raise ParameterError("first.number_of_teeth", first_teeth, "no_recommendation", least)
+        raise ParameterError("first.number_of_teeth", first_teeth, "no_recommendation", least, teeth=first_teeth)
     return found
 
 

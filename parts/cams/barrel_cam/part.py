@@ -252,7 +252,7 @@ def _moved(keys: BarrelCamSpec, body: BarrelBody, offset: float) -> BarrelBody:
     wall = least_wall(cam.outer)
     thin = (cam.outer - cam.inner - wall) / 2
     if not cam.is_groove and not offset > -thin:
-        raise OffsetError(offset, "no_wall", -thin * (1 - 1e-9))
+        raise OffsetError(offset, "leaves_no_wall", -thin * (1 - 1e-9))
     if offset < 0 and not guides(moved):
         raise OffsetError(
             offset, "walls_undercut", last_that_holds(lambda moved: guides(moved_cam(cam, moved)), offset)

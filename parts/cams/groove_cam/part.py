@@ -206,7 +206,7 @@ def _offset_limits(disk: GrooveDisk, offset: float) -> list[OffsetError]:
         found.append(OffsetError(offset, "groove_closed", width / 2 * (1 - 1e-6)))
     rim = disk.outer_radius - disk.outermost
     if not -2 * offset < rim:
-        found.append(OffsetError(offset, "no_rim", -rim / 2 * (1 - 1e-6)))
+        found.append(OffsetError(offset, "leaves_no_rim", -rim / 2 * (1 - 1e-6)))
     if not inside + offset > (disk.holes.reach - offset if disk.holes.number else 0.0):
         least = (disk.holes.reach - inside) / 2 if disk.holes.number else -inside
         found.append(OffsetError(offset, "no_wall_inside_groove", least * (1 - 1e-9)))

@@ -62,7 +62,7 @@ class Piece(Kind[GroovePieceSpec, GroovePiece]):
         if keys.piece == "floor":
             rim = disk.outer_radius - disk.holes.reach
             if not -2 * offset < rim:
-                raise OffsetError(offset, "no_rim", -rim / 2 * (1 - 1e-6))
+                raise OffsetError(offset, "leaves_no_rim", -rim / 2 * (1 - 1e-6))
             round_ = circle(disk.outer_radius + offset, Label.BODY)
             return OffsetRegion(Region(round_, disk.holes.profiles(offset)), offset, ())
         whole = groove_section(disk, offset)

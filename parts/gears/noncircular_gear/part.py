@@ -378,4 +378,4 @@ def _check_slender(keys: NoncircularGearSpec) -> None:
         works = next((value for value in tried if _builds(replaced(keys, key, value))), None)
         return None if works is None else Nearest(works, "at_most")
 
-    raise ParameterError(key, asked, "roots_reach_axis", cure)
+    raise ParameterError(key, asked, "root_reaches_axis", cure)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -251,6 +252,20 @@ def test_verify_complains_about_what_it_cannot_judge(tmp_path: Path, capsys: pyt
     # with --json it was an IndexError
     assert "no such file" in complaint(capsys, "verify", folder / "none.svg", "--json")
     assert run("verify", folder / "g.svg", folder / "g.svg") == 0
+
+
+def test_what_the_system_forbids_is_told_in_the_language_asked_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before, of a folder in which nobody may write, as /sys: ``Operation not permitted`` within a Ukrainian line."""
+
+    def forbidden(folder: Path, *args: object, **more: object) -> None:
+        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM), str(folder))
+
+    monkeypatch.setattr(Path, "mkdir", forbidden)
+    assert run("build", "laser_gear", "--out", tmp_path / "new", "--language", "uk") == 2
+    told = capsys.readouterr().err
+    assert told.endswith("/laser_gear: система цього не дозволяє; оберіть інше місце через --out\n")
 
 
 def test_a_file_that_cannot_be_read_does_not_keep_others_from_being_verified(

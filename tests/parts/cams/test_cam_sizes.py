@@ -357,7 +357,7 @@ def test_a_roller_has_walls_and_bears_offsets_to_half_of_them() -> None:
     assert finding(part_of(ROLLER | {"bore_diameter": 14.01}), "thin_roller_wall") == (pytest.approx(0.995), 1.0)
     assert finding(part_of(ROLLER | {"bore_diameter": 13.99}), "thin_roller_wall") is None
     offset_limits(ROLLER, (3 - 8) / 2, 3.0)
-    with pytest.raises(ValueError, match="no_rim"):
+    with pytest.raises(ValueError, match="leaves_no_rim"):
         part_of(ROLLER | {"bore_diameter": 0.0}).section(-8.0)
     assert part_of(ROLLER | {"bore_diameter": 0.0}).section(-7.99).region.outer.reach() == pytest.approx(0.01)
 

@@ -389,7 +389,7 @@ FLAT: Raw = pair("cam_follower", cam(follower="flat", follower_radius=None),
 
 def test_the_contact_stays_on_the_plate_of_a_follower() -> None:
     """Twice the greatest S' = 2 H / beta of the sine."""
-    check_limit(FLAT, "mates[1]: parts.b.plate_diameter", "contact_over_plate", 4 * 20 / math.radians(120), "at_least",
+    check_limit(FLAT, "mates[1]: parts.b.plate_diameter", "contact_over_edge", 4 * 20 / math.radians(120), "at_least",
                 near=4e-5)  # fmt: skip
 
 

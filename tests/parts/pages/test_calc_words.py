@@ -113,3 +113,25 @@ def test_formulas_are_printed_as_they_are_written_by_hand(formula: str, printed:
 )  # fmt: skip
 def test_numbers_are_printed_as_a_reader_wants_them(value: float, unit: str, enclosed: bool, printed: str) -> None:
     assert number(value, unit, enclosed=enclosed) == printed
+
+
+def test_a_table_without_a_pair_tells_which_of_both_it_lacks() -> None:
+    """Before: ``у таблиці для нього поруч із 13 немає рекомендованого зміщення``, of no gear that was named."""
+    asked = ["first.number_of_teeth=13", "second.number_of_teeth=21", "module=4"]
+    told = {language: calculate("shift-choice", asked, "text", language) for language in ("en", "uk")}
+    assert "kinematic drive: no shift is recommended for 21 teeth beside 13; at least 22 works" in told["en"]
+    assert "для числа зубців 21 поруч із 13 зміщення не рекомендовано; підходить щонайменше 22" in told["uk"]
+
+
+def test_a_percentage_has_a_space_before_its_sign() -> None:
+    """As in all other texts (ISO 80000-1, 7.1.4); it was ``0%``."""
+    page = calculate("gear-pair", ["practicum_pair"], "text", "uk")
+    assert re.search(r"= 0 %$", page, re.MULTILINE)
+    assert not re.search(r"\d%", page)
+
+
+def test_a_designation_that_has_no_symbol_stands_alone() -> None:
+    """Before: ``— = M20-6g``, and a dash in the column of formulas."""
+    told = {form: calculate("thread", ["thread=M20"], form, "uk") for form in ("text", "md")}
+    assert "позначення різьби\n    M20-6g\n" in told["text"]
+    assert "| позначення різьби |  | M20-6g |" in told["md"]

@@ -104,7 +104,7 @@ REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
                                UNBORED, "locking_diameter", "tips_leave_no_disc"),
     "wide disc": (WHEEL | {"locking_diameter": 56.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
     "disc about the wheel": (WHEEL | {"locking_diameter": 1000.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
-    "wide bore": (WHEEL | {"bore_diameter": 56.0}, DRIVER, "bore_diameter", "leaves_no_wall_about_bore"),
+    "wide bore": (WHEEL | {"bore_diameter": 56.0}, DRIVER, "bore_diameter", "no_wall_around_bore"),
     "thin pin": (WHEEL | {"pin_diameter": 0.016}, DRIVER, "pin_diameter", "leaves_no_tip"),
     "round tips": (WHEEL | {"tip_rounding": 9.0}, UNBORED, "tip_rounding", "leaves_no_tip"),
     "rounder tips": (RING | {"tip_rounding": 140.0}, DRIVER, "tip_rounding", "leaves_no_arcs"),

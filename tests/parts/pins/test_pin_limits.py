@@ -65,10 +65,10 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
     (PLATE, "pin_diameter", "pins_touch", 2 * (28 * math.sin(math.pi / 6) - WALL / 2), "at_most",
      {"pins": 6, "circle": 56.0}),
     (LOOSE, "seat_clearance", "leaves_no_hole", -1.5, "at_least", {}),
-    (LOOSE, "seat_clearance", "pin_holes_touch", 28 * math.sin(math.pi / 6) - WALL / 2 - 3, "at_most", {}),
+    (LOOSE, "seat_clearance", "holes_touch_each_other", 28 * math.sin(math.pi / 6) - WALL / 2 - 3, "at_most", {}),
     # the wall of a small plate is 0.005 of its radius, 4 mm with a pin and the clearance beyond: d = 4 - 0.005 (4 + d)
     (SMALL, "pin_diameter", "pins_touch", 3.98 / 1.005, "at_most", {"pins": 6, "circle": 8.0}),
-    (SMALL | {"pins": "holes"}, "seat_clearance", "pin_holes_touch", 1.4875 / 1.0025, "at_most", {}),
+    (SMALL | {"pins": "holes"}, "seat_clearance", "holes_touch_each_other", 1.4875 / 1.0025, "at_most", {}),
     (PLATE, "bore_diameter", "bore_reaches_pins", 2 * (28 - 3 - WALL), "at_most", {}),
     (LOOSE | {"seat_clearance": 0.5}, "bore_diameter", "bore_reaches_pins", 2 * (24.5 - WALL), "at_most", {}),
     # 4 + 1 mm in radius: a wall of 0.025
@@ -83,11 +83,11 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
      (8 + WALL) / math.sin(math.pi / 12), "at_least", {"diameter": 8.0}),
     (output(1) | {"bore_diameter": 0.0}, "output_holes.pitch_circle_diameter", "output_holes_do_not_fit",
      71 - 2 * WALL - 9, "at_most", {"diameter": 9.0}),
-    (DISC, "bore_diameter", "leaves_no_wall_about_bore", 2 * (35.5 - WALL), "at_most", {}),
-    (GEAR, "bore_diameter", "leaves_no_wall_about_bore", 2 * (100 - 4 - WALL), "at_most", {}),
+    (DISC, "bore_diameter", "no_wall_around_bore", 2 * (35.5 - WALL), "at_most", {}),
+    (GEAR, "bore_diameter", "no_wall_around_bore", 2 * (100 - 4 - WALL), "at_most", {}),
     (PIN, "bore_diameter", "leaves_no_wall", 8 - 2 * 0.02, "at_most", {}),
     (PIN | {"diameter": 30.0}, "bore_diameter", "leaves_no_wall", 30 - 2 * WALL, "at_most", {}),
-    (ECCENTRIC, "bore_diameter", "leaves_no_wall_about_bore", 2 * (16 - 4 - WALL), "at_most", {}),
+    (ECCENTRIC, "bore_diameter", "no_wall_around_bore", 2 * (16 - 4 - WALL), "at_most", {}),
 ]  # fmt: skip
 
 

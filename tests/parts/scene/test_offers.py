@@ -7,6 +7,7 @@ one step further does not (one of whole numbers, else a thousandth); the text is
 from __future__ import annotations
 
 import copy
+import math
 import random
 import re
 import time
@@ -275,6 +276,27 @@ def test_a_chamfer_is_offered_for_the_teeth_that_the_mates_have_left(name: str, 
     assert refusal is not None
     assert refusal.nearest is not None
     assert judged(raw, refusal) == []
+
+
+@pytest.mark.parametrize("shift", [-9.999, -1.0, -0.5])
+def test_a_gear_in_mesh_with_its_twin_is_offered_the_shift_that_both_take(shift: float) -> None:
+    """Before: what one of both would need beside the wrong one: 0.67521, 0.26291, -0.23709, where -0.3685 works."""
+    raw = put(scenes()["fit_coupon"], ("parts", "gear_5", "profile_shift_coefficient"), shift)
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert refusal.nearest is not None
+    # inv(alpha_w) of both vanishes at x = -z inv(alpha) / (2 tan(alpha))
+    alpha = math.radians(20.0)
+    assert refusal.nearest.value == pytest.approx(-9 * (math.tan(alpha) - alpha) / math.tan(alpha), abs=1e-4)
+    assert judged(raw, refusal) == []
+
+
+def test_a_value_is_told_as_it_was_typed() -> None:
+    """A shift of helical teeth is reckoned in the transverse section: told was -9.65829233706."""
+    refusal = refusal_of(put(scenes()["cut gear"], ("parts", "p", "profile_shift_coefficient"), -9.999))
+    assert refusal is not None
+    assert refusal.code == "no_working_angle_with_cutter"
+    assert "profile_shift_coefficient = -9.999: " in str(refusal)
 
 
 def test_the_search_is_counted_and_needs_no_clock(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -92,7 +92,7 @@ CASES: list[tuple[str, dict[str, Any], str, str]] = [
     ("ring", {"parts.p.inner_diameter": 79.0}, "parts.p.inner_diameter", "inside_reaches_pin_holes"),
     ("output", {"parts.p.seat_clearance": -2.0}, "parts.p.seat_clearance", "leaves_no_hole"),
     ("output", {"parts.p.seat_clearance": 12.0, "parts.p.outer_diameter": 120.0}, "parts.p.seat_clearance",
-     "pin_holes_touch"),
+     "holes_touch_each_other"),
     ("oval", {"parts.p.centre_distance": 40.0}, "parts.p.module", "either_key"),
     ("oval", {"parts.p.eccentricity": 0.2}, "parts.p.axis_ratio", "either_key"),
     ("oval", {"parts.p.ratio_cosines": [0.1]}, "parts.p.ratio_cosines", "not_of_this_centrode"),

@@ -277,7 +277,7 @@ HOLES = {"holes": {"count": 3, "diameter": 8.0, "pitch_circle_diameter": 40.0}}
 
 @pytest.mark.parametrize(("more", "code", "edge"), [
     ({"bore_diameter": 30.0}, "groove_closed", (2 * 8.0 + 0.1) / 2),
-    ({"outer_diameter": 2 * (OUTERMOST + 2.0)}, "no_rim", -1.0),
+    ({"outer_diameter": 2 * (OUTERMOST + 2.0)}, "leaves_no_rim", -1.0),
     # between the groove, 35 mm from the axis, and the holes, which reach 24 mm
     ({"outer_diameter": 220.0, "bore_diameter": 0.0} | HOLES, "no_wall_inside_groove", -5.5),
 ])  # fmt: skip
