@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 _STEPS = 80
 # so many times a gap is closed by one step at most, or an overlap opened
 _FARTHEST, _BACK = 1.5, 4.0
+# where corners graze the gap hardly changes: steps may always be as long as this part of the module
+_GRAZING = 0.01
 # extremes are looked for between the drive angles: so many times closer each round, until nothing gains this part of
 # the error, or of the module
 _CLOSER, _ROUNDS, _GAINED, _NOTHING = 16, 5, 2e-4, 1e-9
@@ -156,7 +158,9 @@ def _errors(mesh: MeshSearch, drive: Real, side: int, ideal: float, near: Real) 
             return (ideal - x) * mesh.arm
         here, a, b = x[rows], low[rows], high[rows]
         # flanks that touch move with the arm; longer steps could carry a tooth past its mate
-        following, farthest = here + gap / mesh.arm, here + np.where(gap > 0, _FARTHEST, _BACK) * gap / mesh.arm
+        following = here + gap / mesh.arm
+        longest = np.maximum(np.where(gap > 0, _FARTHEST, _BACK) * np.abs(gap), _GRAZING * mesh.module)
+        farthest = here + np.copysign(longest, gap) / mesh.arm
         if step:
             with np.errstate(invalid="ignore", divide="ignore"):
                 secant = here - gap * (here - last[rows]) / (gap - last_gap[rows])

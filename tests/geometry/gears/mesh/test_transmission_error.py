@@ -201,6 +201,34 @@ def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int)
     assert np.ptp(wanted) > 0.3 * error.peak_to_peak
 
 
+_WALK = np.arange(0.0, 4.0, 0.01)
+
+
+def _closed_gap(pair: ExternalPair, sense: int, shift: float) -> float:
+    """Of the main flanks, mm."""
+    mesh = GearMesh(pair, distance_shift=shift)
+    found = mesh.closed_form(mesh.drive_angles())[:, 1 if sense > 0 else 0]
+    return float(found[np.isfinite(found)].min())
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(("z1", "z2", "shift"), [(4, 7, 1.0), (4, 7, 1.6), (5, 5, 0.8), (5, 5, 1.3), (4, 12, 1.4)])
+def test_corners_of_undercut_teeth_that_graze(z1: int, z2: int, shift: float) -> None:
+    """Where tip passes tip the gap hardly changes as the second turns; polylines walk from the middle till they meet.
+
+    Beside a graze less deep than they are coarse one of two near drive angles meets as soon as the search says.
+    """
+    pair = external_pair(spur(z1), spur(z2))
+    for sense, error in zip((1, -1), errors_of(pair, distance_shift=shift), strict=True):
+        slow = Brute(pair, sense, shift)
+        way, ideal = slow.closing * sense / slow.arm, _closed_gap(pair, sense, shift)
+        for k in range(0, len(error.errors), max(1, len(error.errors) // 12)):
+            near = error.drive_angles[k] + np.array([-5e-3, 0.0, 5e-3])
+            met = [next(x for x in _WALK if shapely.intersects(*slow.placed(drive, way * x))) for drive in near]
+            assert min(met) - 0.03 < ideal - error.errors[k] < max(met) + 0.02
+        assert error.peak_to_peak > 0.1
+
+
 @pytest.mark.heavy
 def test_a_rack_with_short_tips() -> None:
     pair = on_rack(17, given_tip_diameter=33.4, **THIN)
