@@ -134,8 +134,12 @@ class BevelGear(Record, dict=True):
     @property
     def normal_share(self) -> float:
         """Of an arc of the pitch circle that is left along the flank's normal, at the outer end."""
+        return self.normal_share_at(self.cone_distance)
+
+    def normal_share_at(self, distance: float) -> float:
+        """The same at a cone distance, mm."""
         cosine = math.cos(self.pressure_angle)
-        return cosine / math.hypot(1.0, math.tan(float(self.line.spiral(self.cone_distance))) * cosine)
+        return cosine / math.hypot(1.0, math.tan(float(self.line.spiral(distance))) * cosine)
 
     def at(self, distance: float) -> BevelGear:
         """The straight gear whose outer teeth are as those at a cone distance, mm."""

@@ -1,6 +1,6 @@
 """Two bevel gears whose apexes are one: what both are together, and the gap between them over a pitch of motion.
 
-Everything is one problem on the unit sphere; a gap there is as many times the cone distance in mm, most at the outer
+Everything is one problem on the unit sphere; a gap there is as many times the cone distance in mm, least at the inner
 end, and less where tooth lines lean. Those turn the same problem on, from sphere to sphere. Azimuths are rotations of
 each gear about its own axis, from the pitch line on.
 """
@@ -152,20 +152,23 @@ class BevelPair(Record, dict=True):
         found = []
         for way in (-1, 1):
             both = []
-            for one, two, ahead, behind in self._sections():
+            for distances, one, two, ahead, behind in self._sections():
                 own, others = drive + ahead, turned + behind
-                both += [_least(one, two, way, own, others), _least(two, one, way, others, own)]
+                least = np.minimum(_least(one, two, way, own, others), _least(two, one, way, others, own))
+                both += [least * d * first.normal_share_at(d) / math.cos(first.pressure_angle) for d in distances]
             found.append(np.min(both, axis=0))
-        gaps = np.stack(found) * (first.cone_distance * first.normal_share / math.cos(first.pressure_angle))
-        return flanks_contact(gaps, drive, complex(first.outer(first.pitch_angle).real), allowed)
+        return flanks_contact(np.stack(found), drive, complex(first.outer(first.pitch_angle).real), allowed)
 
-    def _sections(self) -> list[tuple[BevelGear, BevelGear, float, float]]:
-        """The teeth of both on spheres, and how far the tooth line turns them there, rad."""
+    def _sections(self) -> list[tuple[tuple[float, ...], BevelGear, BevelGear, float, float]]:
+        """Cone distances, mm, the teeth of both on spheres there, and how far the tooth line turns them, rad.
+
+        Straight teeth are the same on all spheres: a gap is least at the inner end, what overlaps deepest at the outer.
+        """
         first, second = self.gears
         if first.is_straight:
-            return [(first, second, 0.0, 0.0)]
-        spheres = np.linspace(first.cone_distance, first.inner_distance, _SPHERES)
-        return [(first.at(d), second.at(d), float(first.spin(d)), float(second.spin(d))) for d in spheres]
+            return [((first.cone_distance, first.inner_distance), first, second, 0.0, 0.0)]
+        spheres = np.linspace(first.cone_distance, first.inner_distance, _SPHERES).tolist()
+        return [((d,), first.at(d), second.at(d), float(first.spin(d)), float(second.spin(d))) for d in spheres]
 
 
 def _least(gear: BevelGear, mate: BevelGear, way: int, turned: Real, mate_turned: Real) -> Real:

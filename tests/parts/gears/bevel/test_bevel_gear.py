@@ -93,11 +93,12 @@ def test_teeth_stand_in_spaces_wherever_the_first_stands(angle: float) -> None:
     raw = scene(turn, turn, normal_backlash=0.2)
     wheel, pinion = solids(raw)
     assert (wheel ^ pinion).volume() < 1e-6
-    parts, _ = make_parts(scene_from_dict(raw, "s", "s"), "s")
+    parts, (mating,) = make_parts(scene_from_dict(raw, "s", "s"), "s")
     gear = parts["wheel"].thing
     # least at the inner end
     least = 0.1 * gear.inner_distance / gear.cone_distance
     assert wheel.min_gap(pinion, 1.0) == pytest.approx(least, abs=0.006)
+    assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(least, rel=1e-9)
     wheel, pinion = solids(raw, turned=10.0)
     assert (wheel ^ pinion).volume() > 1.0
 
@@ -183,7 +184,8 @@ def test_check_tells_ratio_contact_and_turns(tmp_path: Path, capsys: pytest.Capt
     assert main(["check", "bevel_pair"]) == 0
     said = capsys.readouterr().out
     assert "ratio 0.5" in said
-    assert "CLEAR, least gap 0.05 mm" in said
+    # half of the backlash at the outer end, at the inner one 7 tenths of it
+    assert "CLEAR, least gap 0.035 mm" in said
     assert "pinion = 2, wheel = -1" in said
 
 

@@ -73,6 +73,7 @@ def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch(kind: str) ->
     half = gear.circumferential_thinning * cosine / gear.cone_distance
     least = float((half * places / np.hypot(1.0, np.tan(gear.line.spiral(places)) * cosine)).min())
     assert gear.circumferential_thinning * gear.normal_share == pytest.approx(0.1, rel=1e-12)
+    assert matings[0].contact(0.0, 0.0, None).worst.gap == pytest.approx(least, rel=1e-3)
     for share in (0.0, 0.37, 0.71):
         turned = share * math.tau / 13
         pinion, wheel = solid("pinion", turned), solid("wheel", -turned * 13 / 20)
@@ -108,7 +109,7 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(kind: str, tmp_
         (
             {"cutter_radius": 18.0, "tooth_line": "straight"},
             {},
-            "pinion.cutter_radius = 18.0: is for teeth along an arc",
+            "pinion.cutter_radius = 18.0: is only for teeth along an arc",
         ),
     ],
 )
