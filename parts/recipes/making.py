@@ -24,8 +24,8 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
 }  # fmt: skip
 # orders of assembly, a step or some a row; what keys of parts are keys of their recipe
 _ORDERS, _ORIGINS = rows_of(__file__, "orders"), rows_of(__file__, "origins")
-# rounding of a square plate's corners, mm
-_CORNER = 10.0
+# rounding of a square plate's corners; depth of marks where what has them is thick enough, mm
+_CORNER, _MARK = 10.0, 0.4
 
 
 def refused_by(
@@ -51,6 +51,11 @@ def refused_by(
     if not isinstance(given, float) or not isinstance(end, float):
         return ParameterError(name, list(given) if isinstance(given, tuple) else given, code, None, **told)
     return ParameterError(name, given, code, partial(nearest, partial(works, name), given, end), **told)
+
+
+def mark(thickness: float) -> Table:
+    """What a mark says of its depth, mm: half of what is thin is left under it."""
+    return {"depth": thickness / 2} if thickness < 2 * _MARK else {}
 
 
 class Making:

@@ -29,7 +29,7 @@ from parts.base.part_keys import Density, Material
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import Double, HelixAngle
 from parts.keys.mate import further
-from parts.recipes.making import Making, hole, holes_on, on_circle
+from parts.recipes.making import Making, hole, holes_on, mark, on_circle
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
@@ -270,7 +270,7 @@ def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
         # satellites turn on their pins
         table["bore_diameter"] = getattr(keys, key) + (keys.clearance if key == "pin_diameter" else 0.0)
     if keys.frame:
-        table["tooth_mark"] = {}
+        table["tooth_mark"] = mark(keys.face_width)
     return table
 
 
@@ -391,8 +391,8 @@ def _add_carrier(made: _Set, making: Making) -> None:
     start = max(0.5 * made.distance, (keys.shaft_diameter + keys.clearance) / 2 + _MARK)
     end = min(0.75 * made.distance, made.distance - keys.pin_diameter / 2 - _MARK)
     if keys.frame and start < end:
-        mark = {"start": [start, 0.0], "end": [end, 0.0], "width": _MARK}
-        found.parts["carrier"]["engraved"] = [mark]
+        slot = {"start": [start, 0.0], "end": [end, 0.0], "width": _MARK}
+        found.parts["carrier"]["engraved"] = [slot | mark(thick)]
     making.pin("pin", keys.pin_diameter, inside + 2 * thick)
     making.put("coaxial", first.id, "carrier", height=bottom - first.height, rotation_deg=keys.direction_deg)
     upper = "carrier" if keys.second_shaft_diameter is None else "upper_carrier"
@@ -425,9 +425,10 @@ def _add_frame(made: _Set, making: Making) -> None:
     floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick
     half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter, 3 * keys.pin_diameter), 1)
     feet = on_circle(4, screws, 45.0)
+    pointer = {"start": [outside + 2, 0.0], "end": [half - 2, 0.0], "width": 1.5} | mark(thick)
     making.plate(
         "base", 2 * half, [hole(0j, keys.shaft_diameter + keys.clearance), *(hole(at, _SCREW) for at in feet)],
-        corner_radius=_MARGIN, engraved=[{"start": [outside + 2, 0.0], "end": [half - 2, 0.0], "width": 1.5}],
+        corner_radius=_MARGIN, engraved=[pointer],
     )  # fmt: skip
     making.pin("foot", 2.5 * _SCREW, ring.height - floor, _SCREW)
     making.pin("shaft", keys.shaft_diameter, top - floor + 2 * thick)

@@ -19,7 +19,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, holes_on, on_circle, place, refused_by
+from parts.recipes.making import Making, hole, holes_on, mark, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -29,8 +29,6 @@ _WALL, _BOSS, _TUBE = 3.0, 3.0, 3.0
 _FOOT, _FEET_HEIGHT, _HANDLE, _GRIP = 10.0, 70.0, 6.0, 25.0
 # of a pin's diameter: the most play that it may have in its hole
 _LOOSE = 0.25
-# depth of the marks on teeth and disk where plates are thick enough, mm
-_MARK = 0.4
 # worms: quotient q; addendum, dedendum and length of the thread, modules; bearings, neck before them, collar, mm
 _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
@@ -177,8 +175,7 @@ class _Making(Making):
         thick, gap = self.keys.plate_thickness, self.keys.axial_gap
         super().__init__("power_table", thick, self.keys)
         self.back = thick + gap
-        # half of a thin plate is left under a mark
-        self.mark = {"depth": thick / 2} if thick < 2 * _MARK else {}
+        self.mark = mark(thick)
         # lower ends of tube and shaft
         self.ends = -gap - thick, -2 * (gap + thick)
         if self.keys.drive == "worms":
@@ -258,8 +255,8 @@ class _Making(Making):
         sizes, keys, thick = self.sizes, self.keys, self.keys.plate_thickness
         arm, second = complex(sizes.arm), complex(sizes.second_arm)
         shaft, axle = keys.axle_diameter, keys.platform_axle_diameter
-        mark = {"start": [sizes.disk - 12, 0.0], "end": [sizes.disk - 4, 0.0], "width": 1.0} | self.mark
-        self.plate("disk_2", 2 * sizes.disk, [hole(0j, shaft), hole(arm, shaft)], engraved=[mark])
+        slot = {"start": [sizes.disk - 12, 0.0], "end": [sizes.disk - 4, 0.0], "width": 1.0} | self.mark
+        self.plate("disk_2", 2 * sizes.disk, [hole(0j, shaft), hole(arm, shaft)], engraved=[slot])
         self.put("coaxial", "base", "disk_2", height=self.disk)
         _, low = self.ends
         self.pin("shaft", shaft, self.disk + thick - low)

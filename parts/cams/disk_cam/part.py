@@ -73,7 +73,7 @@ _CENTRE_DISTANCE = part_mm(
     above=0,
     example=90.0,
 )
-_ARM_LENGTH = part_mm("from the pivot to the roller's centre; not for flat", least=0)
+_ARM_LENGTH = part_mm("from the pivot to the roller's centre; not for flat", above=0, example=80.0)
 _SENSE = Meta(description="how the follower rises: against or with the cam's turning")
 
 
@@ -81,7 +81,7 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot on +x."""
 
     centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
-    arm_length: Annotated[float, _ARM_LENGTH, start(80.0)] = 0.0
+    arm_length: Annotated[float, _ARM_LENGTH, start(80.0)] | None = None
     sense: Annotated[Literal["against", "with"], _SENSE] = "against"
     face_offset: Annotated[float, part_mm("flat face nearer to the axis than the pivot", least=-MOST_LENGTH)] = 0.0
 
@@ -144,6 +144,8 @@ def cam_of(keys: CamSpec) -> DiskCam:
             raise ParameterError("follower_offset", keys.follower_offset, "arm_has_no_offset", Nearest(0.0))
         if swing.face_offset and keys.follower != "flat":
             raise ParameterError("face_offset", swing.face_offset, "for_flat_only", Nearest(0.0))
+        if swing.arm_length is None and keys.follower != "flat":
+            raise ParameterError("arm_length", None, "arm_missing")
         if base is None:
             return _least_rocker(keys, swing, motion)
         if swing.centre_distance is None:
@@ -163,7 +165,7 @@ def _rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion, dist
         FollowerKind(keys.follower),
         base,
         centre_distance=distance,
-        arm_length=swing.arm_length,
+        arm_length=swing.arm_length or 0.0,
         radius=keys.follower_radius,
         sense=swing.turning,
         face_offset=swing.face_offset,
@@ -251,13 +253,11 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
     from geometry.cams.motion.guides import oscillating_prime_radius
     from geometry.cams.plane.synthesis import convex_rocker_base_radius, oscillating_axis, oscillating_start_angles
 
-    angle, arm, distance = keys.least_transmission_angle_deg, swing.arm_length, swing.centre_distance
+    angle, arm, distance = keys.least_transmission_angle_deg, swing.arm_length or 0.0, swing.centre_distance
     if keys.follower == "flat":
         raise ParameterError("base_circle_radius", None, "base_circle_missing_of_arm")
     if angle is None:
         raise ParameterError("base_circle_radius", None, "base_circle_missing")
-    if not arm > 0:
-        raise ParameterError("arm_length", arm, "not_above_zero")
 
     def best(tried: float) -> OscillatingAxis:
         steep = math.radians(90 - tried)
