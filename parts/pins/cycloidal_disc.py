@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import msgspec
 from msgspec import Meta, Struct
 
-from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
@@ -144,9 +144,9 @@ def _check_output(table: OutputHolesTable, group: RoundHoles, disc: CycloidalDis
     outer, inner = 2 * (disc.root_radius - least), 2 * (holes.bore_reach + least) if holes.bore is not None else 0.0
     moving = 2 * disc.eccentricity + table.clearance
 
-    def widest(circle: float) -> float:
-        """The largest hole on a pitch circle."""
-        chord = math.inf if table.count == 1 else circle * math.sin(math.pi / table.count) - least
+    def widest(circle: float, count: int = table.count) -> float:
+        """The largest of so many holes on a pitch circle."""
+        chord = math.inf if count == 1 else circle * math.sin(math.pi / count) - least
         beside_bore = circle - inner if holes.bore is not None else math.inf
         return min(outer - circle, beside_bore, chord) * (1 - MARGIN)
 
@@ -164,6 +164,9 @@ def _check_output(table: OutputHolesTable, group: RoundHoles, disc: CycloidalDis
     if widest(best) - moving > 1e-3 * table.pin_diameter:
         code = "output_holes_fit_elsewhere"
         raise ParameterError("output_holes.pin_diameter", table.pin_diameter, code, **told, circle=best)
+    if (fewer := next((n for n in range(table.count - 1, 0, -1) if size <= widest(circle, n)), None)) is not None:
+        most = Nearest(fewer, "at_most")
+        raise ParameterError("output_holes.count", table.count, "output_holes_do_not_fit", most, **told)
     raise ParameterError("output_holes.count", table.count, "output_holes_have_no_room", **told)
 
 

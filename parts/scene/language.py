@@ -114,5 +114,8 @@ def _check_all(told: dict[str, Any], key: str, source: str, place: str) -> None:
         try:
             msgspec.convert(words, list[str] if key == "notes" else bool | str if key == "label" else str)
         except msgspec.ValidationError:
-            kind = type_words("array" if key == "notes" else "str")
-            raise SceneError(source, f"{place}.{language}", words, "wrong_type", type=kind) from None
+            where, kind = f"{place}.{language}", "array" if key == "notes" else "str"
+            if kind == "array" and isinstance(words, list):
+                index = next(i for i, paragraph in enumerate(words) if not isinstance(paragraph, str))
+                where, words, kind = f"{where}[{index + 1}]", words[index], "str"
+            raise SceneError(source, where, words, "wrong_type", type=type_words(kind)) from None

@@ -87,8 +87,8 @@ def test_a_backlash_that_leaves_no_teeth_names_the_gears_and_the_greatest_one(
 ) -> None:
     text = PAIR.replace('second = "b"', 'second = "b"\nnormal_backlash = {}')
     told = line(tmp_path, capsys, text.format(9.0))
-    assert told == "mates[1].normal_backlash = 9.0: leaves no whole teeth of a, b; at most 2.267 mm works"
-    assert "не лишає цілих зубців: a, b" in line(tmp_path, capsys, text.format(9.0), "uk")
+    assert told == "mates[1].normal_backlash = 9.0: leaves no whole teeth; gears: a, b; at most 2.267 mm works"
+    assert "не лишає цілих зубців; колеса: a, b" in line(tmp_path, capsys, text.format(9.0), "uk")
     # between the limits of both only the smaller one is named
     assert "of gear a; at most 2.267 mm works" in line(tmp_path, capsys, text.format(2.3))
     file = tmp_path / "x.toml"

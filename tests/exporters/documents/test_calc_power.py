@@ -495,7 +495,7 @@ def test_errors_by_play_over_the_workspace(module: dict[str, Any], tmp_path: Pat
         asked = ["calc", "power-module", f"picture={file}", *more, "--language", language, "--out", f"{file}.txt"]
         assert main(asked) == 0
         assert file.read_text(encoding="utf-8").count("<circle") >= 48
-    with pytest.raises(SceneError, match="ends in one of"):
+    with pytest.raises(SceneError, match="the ending of such a file"):
         calculate("power-module", (f"picture={tmp_path / 'x.dxf'}",), "text", "en")
 
 

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pins.cycloidal import CycloidalDisc, checked_disc
 from parts.scene.load import make_parts, scene_from_dict
 from tests.parts.limits import check_limit, check_offer, check_refused, offset_limits, refused, scene_of, with_key
+from tests.parts.scene.test_offers import judged
 
 # the thinnest wall: 0.05 mm, of parts below 10 mm in radius half a hundredth of that
 WALL = 0.05
@@ -118,6 +119,19 @@ def test_what_is_far_too_large_is_told_the_most_that_works(
     check_offer(scene_of(part), f"parts.p.{key}", value, code, limit, "at_most")
 
 
+def test_more_output_holes_than_there_is_room_for_are_told_how_many_there_is_room_for() -> None:
+    """Before: ``no room between bore and valleys; leave output_holes out``, where 15 of them fit.
+
+    Two neighbours of n holes 9 mm wide on a circle of 45 mm leave a wall of 0.05 where 45 sin(pi / n) >= 9.05.
+    """
+    raw = scene_of(output(100))
+    found = refused(raw)
+    assert found is not None
+    assert (found.key, found.code) == ("parts.p.output_holes.count", "output_holes_do_not_fit")
+    assert found.nearest == Nearest(math.floor(math.pi / math.asin((9 + WALL) / 45)), "at_most")
+    assert judged(raw, found) == []
+
+
 def test_an_axis_beside_its_disc_is_told_from_the_rim_on() -> None:
     """Two walls from the rim the axis leaves the disc; before, its bore is blamed."""
     for value, key in ((16 - 2 * WALL - 1e-6, "bore_diameter"), (16 - 2 * WALL + 1e-6, "eccentricity")):
@@ -151,10 +165,11 @@ def test_output_pins_without_room_on_their_circle_or_on_any() -> None:
     few = refused(scene_of(output(3, circle=22.0, pin=30.0)))
     assert few is not None
     assert few.numbers["circle"] == pytest.approx((71 + 20) / 2, rel=1e-6)
-    none = refused(scene_of(output(count=200, circle=60.0)))
+    # a bore of 50 leaves a ring 10.5 wide, less than 2 e and a clearance of 8 alone
+    none = refused(scene_of(output(circle=22.0, clearance=8.0) | {"bore_diameter": 50.0}))
     assert none is not None
-    assert (none.key, none.code, none.value) == ("parts.p.output_holes.count", "output_holes_have_no_room", 200)
-    assert none.numbers["diameter"] == pytest.approx(9.0)
+    assert (none.key, none.code) == ("parts.p.output_holes.count", "output_holes_have_no_room")
+    assert none.numbers["diameter"] == pytest.approx(17.0)
 
 
 def test_a_bore_beside_output_holes_is_blamed_where_it_leaves_no_circle_for_them() -> None:

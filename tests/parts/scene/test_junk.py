@@ -275,7 +275,7 @@ def test_small_sizes_of_a_spline_are_told_by_their_own_key(
 @pytest.mark.parametrize(("words", "told"), [
     # before: tracebacks of a number that Python does not read, and of a file without a name
     (["spur", f"module=1{'0' * 5000}", "number_of_teeth=20"], "must be a number; module m"),
-    (["shift-choice", "practicum_pair", "picture="], 'ends in one of .svg, .dxf; "contour.svg" works'),
+    (["shift-choice", "practicum_pair", "picture="], 'ending of such a file: .svg, .dxf; "contour.svg" works'),
     # before: what it is, not what one looks like
     (["spur", "module=2", "number_of_teeth=20", "accuracy={}"], 'is missing: grade and kind of mate: like "8-B"'),
     (["spur", "module=2", "number_of_teeth=20", "title={}"], "name for people, in any script: at least 1"),

@@ -585,7 +585,7 @@ def test_a_language_that_is_none_is_refused_in_the_one_that_was_meant(tmp_path: 
     [
         ("scene", {"title": {"en": "Pin", "uk": -1}}, "scene.title.uk"),
         ("scene", {"notes": {"en": ["Turn it."], "uk": "Оберніть."}}, "scene.notes.uk"),
-        ("scene", {"notes": {"en": ["Turn it."], "uk": [1]}}, "scene.notes.uk"),
+        ("scene", {"notes": {"en": ["Turn it."], "uk": ["Оберніть.", 1]}}, "scene.notes.uk[2]"),
         ("pin", {"label": {"en": "P", "uk": 2.5}}, "parts.pin.label.uk"),
         ("pin", {"material": {"en": "steel", "uk": ["сталь"]}}, "parts.pin.material.uk"),
     ],
