@@ -90,7 +90,7 @@ def test_a_backlash_that_leaves_no_teeth_names_the_gears_and_the_greatest_one(
     assert told == "mates[1].normal_backlash = 9.0: leaves no whole teeth; gears: a, b; at most 2.267 mm works"
     assert "не лишає цілих зубців; колеса: a, b" in line(tmp_path, capsys, text.format(9.0), "uk")
     # between the limits of both only the smaller one is named
-    assert "of gear a; at most 2.267 mm works" in line(tmp_path, capsys, text.format(2.3))
+    assert "gears: a; at most 2.267 mm works" in line(tmp_path, capsys, text.format(2.3))
     file = tmp_path / "x.toml"
     file.write_text(text.format(2.267))
     assert main(["check", str(file)]) == 0
