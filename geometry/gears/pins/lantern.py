@@ -284,9 +284,12 @@ def lantern_side(gear: LanternGear, offset: float = 0.0) -> ToothSide:
 
 
 def lantern_findings(gear: LanternGear) -> tuple[Finding, ...]:
-    """A drive that is interrupted from tooth to tooth."""
+    """A drive that is interrupted from tooth to tooth, and whether the root's clearance alone is the cause."""
     ratio = gear.contact_ratio
-    return (Finding("contact_ratio", ratio, 1.0),) if ratio < 1 else ()
+    if not ratio < 1:
+        return ()
+    cut = gear.root_clearance > 0 and not with_value(gear, "root_clearance", 0.0).contact_ratio < 1
+    return (Finding("contact_ratio_by_root" if cut else "contact_ratio", ratio, 1.0),)
 
 
 class LanternMotion(Record):

@@ -218,6 +218,12 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "has no exports"),
         (b"[scene]\nlanguage='de'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", '"en", "uk"'),
         (b"[scene]\ntitel='x'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean title"),
+        # what is long in its own word is not sent to the defaults, where its gear has the other
+        (
+            b"[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n"
+            b"[parts.p]\nkind='pin'\ndiameter=3\nface_width=9\n",
+            "did you mean length?",
+        ),
         (b"[sceen]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean scene"),
         (b"[gears]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "unknown table"),
         # a part without parts before its name, or without a header

@@ -99,6 +99,11 @@ def test_an_interrupted_drive_is_told() -> None:
     gear = GEARS["more pins than teeth"]
     assert contact(gear).verdict is Verdict.CLEAR
     assert [f.code for f in lantern_findings(gear)] == ["contact_ratio"]
+    # a low root alone is told as the cause: the same gear without it drives on
+    cut = LanternGear(30, 12, 80.0, 8.0, root_clearance=3.0)
+    assert replace(cut, root_clearance=0.0).contact_ratio > 1
+    assert [f.code for f in lantern_findings(cut)] == ["contact_ratio_by_root"]
+    assert [f.code for f in lantern_findings(replace(gear, root_clearance=1e-3))] == ["contact_ratio"]
 
 
 def test_the_contact_check_notices_what_is_wrong() -> None:
