@@ -130,8 +130,8 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
         for step in section.steps:
             formula = f"{formula_text(step, told)} = {numbers_text(step, told)}" if step.formula else ""
             symbol = symbol_text(step.symbol, told)
-            cells = f"{step_name(step, told)}, {symbol}", formula, result_text(step, told)
-            name, formula, result = (_lowered(told.decimal(cell)) for cell in cells)
+            name = _lowered(told.decimal(f"{step_name(step, told)}, {symbol}"))
+            formula, result = (_lowered(told.printed(cell)) for cell in (formula, result_text(step, told)))
             # the data of the device are given
             rows.append(Row(name, formula, result, answers=0 if section is tables.sections[0] else 2))
     return rows

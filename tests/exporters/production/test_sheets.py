@@ -263,7 +263,8 @@ def test_the_tables_of_lesson_1_stand_on_the_sheet() -> None:
     for value in (160 * math.cos(math.radians(20)), pitch, pitch / 2, pitch / 2 + 2 * 112 / 17 * math.tan(math.pi / 9)):
         assert any(f"{value:.5f}".rstrip("0") in text for text in texts), value
     assert {"zero wheel", "shifted wheel", "undercut"} <= texts
-    assert any("17" in text and "/" in text for text in texts)
+    # with true minus signs, as on pages; it was (17 - z)/17
+    assert "(17 \N{MINUS SIGN} z)/17 = (17 \N{MINUS SIGN} 10)/17" in texts
 
 
 def test_the_scene_of_the_device_has_its_calculation() -> None:
