@@ -32,7 +32,7 @@ def bracketed_root(
     low: float,
     high: float,
     *,
-    limit: int = 120,
+    limit: int = 300,
     enough: float = 0.0,
     at_ends: tuple[float, float] | None = None,
 ) -> Root:
@@ -42,7 +42,7 @@ def bracketed_root(
     they are known.
 
     Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic interpolation
-    where it is safe, bisection otherwise.
+    where it is safe, bisection otherwise; some 10 steps, and up to 150 where rounding makes a function jump beside 0.
 
     Raises
     ------

@@ -56,6 +56,15 @@ def test_a_flat_root_at_an_end_of_the_bracket_is_found() -> None:
     assert bracketed_root(lambda x: x - 1, 0.0, 1.0).value == 1.0
 
 
+def test_a_root_between_the_roundings_beside_nothing_is_found() -> None:
+    """Where an arc begins on a line: its height jumps over 0, by whole roundings, at an angle of 1e-16."""
+    found = bracketed_root(
+        lambda t: 82.0314899178318 * math.sin(3.1605271219536704 + t) + 1.5531298436531, 0.0, 0.09004385728455445
+    )
+    assert 0 < found.value < 1e-15
+    assert abs(found.residual) < 1e-14
+
+
 @examples(200)
 @given(
     st.one_of(numbers(-1e3, -1e-3), numbers(1e-3, 1e3)),

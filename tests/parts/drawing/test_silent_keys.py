@@ -120,6 +120,7 @@ def drawn(raw: Raw, key: str) -> tuple[set[str], list[Any]]:
     for view in drawing.views:
         said |= {f"{one.before}{one.value:.6f}{one.after}" for one in (*view.sizes, *view.rounds)}
         said |= {note.text for note in view.notes} | {view.title}
+        said |= {f"{angle.value:.6f}" for angle in view.angles}
     table = part_table(part, scene, placing, parts)
     if table is not None:
         said |= {f"{told.say(row.name)} {value_text(row, told)}" for rows in table.parts for row in rows}
