@@ -175,7 +175,7 @@ def _check_end(keys: FollowerSpec | FollowerArmSpec, more: Mapping[str, tuple[st
             code = "roller_is_a_part" if (key, keys.end) == ("follower_radius", "roller") else "for_other_ends"
             raise ParameterError(key, value, code, Nearest(0.0), ends=ends)
     if keys.end == "mushroom" and not keys.follower_radius:
-        raise ParameterError("follower_radius", 0.0, "mushroom_without_radius")
+        raise ParameterError("follower_radius", 0.0, "follower_without_radius", end="mushroom")
 
 
 class Ended(Extruded[F, "FollowerEnd"]):

@@ -108,7 +108,7 @@ def meshing_picture(pair: Pair) -> MeshingPicture:
     """
     picture = _rack(pair) if isinstance(pair, RackPair) else _gears(pair)
     if not picture.end > picture.start:
-        raise ParameterError("mate", picture.end - picture.start, "flanks_do_not_reach")
+        raise ParameterError("mate", None, "flanks_do_not_reach")
     return picture
 
 

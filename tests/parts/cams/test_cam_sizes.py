@@ -297,7 +297,7 @@ def test_holes_of_arms_are_told_the_largest_that_their_ends_hold() -> None:
         (STEM, "plate_diameter", 30.0, "for_other_ends", 0.0),
         (STEM, "corner_radius", 1.0, "for_other_ends", 0.0),
         (ARM, "face_offset", 2.0, "for_other_ends", 0.0),
-        (CAP, "follower_radius", 0.0, "mushroom_without_radius", ...),
+        (CAP, "follower_radius", 0.0, "follower_without_radius", ...),
         (FLAT, "plate_diameter", 0.0, "follower_without_plate", 20.0),
         (FLAT | {"stem_width": 7.0}, "plate_diameter", 0.0, "follower_without_plate", 14.0),
         (CAP, "plate_diameter", 0.0, "follower_without_plate", 20.0),

@@ -70,7 +70,7 @@ CASES: list[tuple[str, dict[str, Any], str, str]] = [
     ("swinging roller", {"parts.p.base_circle_radius": GONE}, "parts.p.base_circle_radius", "base_circle_missing"),
     ("swinging flat", {"parts.p.base_circle_radius": GONE}, "parts.p.base_circle_radius", "base_circle_missing_of_arm"),
     ("swinging mushroom", {"parts.p.plate_diameter": 30.0}, "parts.p.plate_diameter", "for_faces_only"),
-    ("mushroom stem", {"parts.p.follower_radius": GONE}, "parts.p.follower_radius", "mushroom_without_radius"),
+    ("mushroom stem", {"parts.p.follower_radius": GONE}, "parts.p.follower_radius", "follower_without_radius"),
     ("new follower", {"parts.p.stem_length": 3.0}, "parts.gear.stem_length", "shorter_than_half_width"),
     # what was left out is not to blame
     ("new follower", {"parts.p.stem_width": 170.0}, "parts.gear.stem_width", "wider_than_twice_length"),
