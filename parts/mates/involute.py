@@ -55,9 +55,13 @@ class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
 
 
 class GearMating(Toothed):
-    """Two involute gears in mesh, as they are built at last."""
+    """Two involute gears in mesh, as they are built at last.
+
+    ``normal_share``: of a gap in the transverse section that is left at right angles to the flanks, cos(beta_b).
+    """
 
     pair: Pair
+    normal_share: float
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept: interference, assembly, clearance, contact ratio."""
@@ -82,7 +86,8 @@ class GearMating(Toothed):
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the first gear, or of the pinion."""
-        return self._mesh(phase_off, distance_off).contact(tolerance, self.face.overlap_ratio)
+        found = self._mesh(phase_off, distance_off).contact(tolerance, self.face.overlap_ratio)
+        return found.along_normals(self.normal_share)
 
     def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
         """Errors where the first turns counter-clockwise and clockwise; the second's arm on the line of action, mm."""
@@ -271,14 +276,15 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
         """The mating of ``paired``."""
         from parts.keys.helix import common_face
 
-        pair = self.paired(first, second, distance)
+        pair, share = self.paired(first, second, distance), self.normal_share(first, second)
         return self.mated(
             *self.joined(keys),
             distance=pair.working_centre_distance,
             rolls=self.rolls,
             teeth=(first.thing.number_of_teeth, second.thing.number_of_teeth),
             module=pair.module,
-            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
+            normal_backlash=pair.normal_backlash * share,
+            normal_share=share,
             pair=pair,
             face=common_face(first.keys, second.keys),
         )

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.far_teeth import Measured, promising_places
@@ -71,8 +71,8 @@ class PairContact(Record):
     along their face. CLEAR: otherwise, with ``touches`` telling whether there is contact at some drive angles.
     UNDECIDED: the search missed what the closed form for two involutes finds, or a number is not finite.
 
-    Gaps are those of one transverse section. ``side_gaps`` are the gap curves at the lower and the upper sides of the
-    first gear's teeth, ``gaps`` the lesser of both.
+    Gaps are those of one transverse section, unless taken ``along_normals``. ``side_gaps`` are the gap curves at the
+    lower and the upper sides of the first gear's teeth, ``gaps`` the lesser of both.
     """
 
     verdict: Verdict
@@ -87,6 +87,19 @@ class PairContact(Record):
     def touches(self) -> bool:
         """Whether the gears touch at some drive angle without overlap."""
         return self.verdict is Verdict.CONTACT or (self.verdict is Verdict.CLEAR and self.worst.gap <= self.tolerance)
+
+    def along_normals(self, share: float) -> PairContact:
+        """The gaps of helical teeth at right angles to their flanks: ``share`` of the section's, cos(beta_b).
+
+        As they are where what is nearest is no flank: tips and roots face each other in the section.
+        """
+        if not {Label.FLANK, Label.RELIEF}.intersection(self.worst.labels):
+            return self
+        lower, upper = (tuple(share * gap for gap in side) for side in self.side_gaps)
+        return replace(
+            self, gaps=tuple(share * gap for gap in self.gaps), side_gaps=(lower, upper),
+            worst=replace(self.worst, gap=share * self.worst.gap), greatest_gap=share * self.greatest_gap,
+        )  # fmt: skip
 
 
 def _bridged(mesh: MeshSearch, angles: Real, sides: Real, allowed: float, overlap_ratio: float) -> bool:

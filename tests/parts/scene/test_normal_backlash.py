@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import manifold3d
 import numpy as np
 import pytest
 import shapely
@@ -12,6 +13,7 @@ import shapely
 from geometry.gears.teeth.transverse import normal_share
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import place
 from tests import brute
 from tests.geometry.gears.mesh.test_transmission_error import Brute
 
@@ -49,8 +51,27 @@ def test_what_is_asked_is_normal_to_the_flanks(kind: str) -> None:
     bodies = [getattr(mating.pair, name) for name in names]
     thinning = sum(b.circumferential_thinning for b in bodies)
     assert thinning * cosine * share == pytest.approx(0.1, rel=1e-9)
-    # the transverse section still touches itself in the middle of its own, larger play
-    assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.05 / share, abs=6e-4)
+    assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.05, abs=6e-4)
+
+
+@pytest.mark.parametrize("beta", [0.0, 35.0])
+@pytest.mark.parametrize("kind", ["external_gear_pair", "internal_gear_pair"])
+def test_the_gap_that_is_told_is_that_of_meshes(kind: str, beta: float) -> None:
+    """Of helical teeth it was that of the transverse section: a sixth more at 35 degrees."""
+    first, second = (part | {"helix_angle_deg": beta, "face_width": 4.0} for part in PARTS[kind])
+    mate = {"kind": kind, "first": "a", "second": "b", "normal_backlash": 0.1}
+    scene = scene_from_dict({"parts": {"a": first, "b": second}, "mates": [mate]}, "t", "t")
+    parts, matings = make_parts(scene, "t")
+    solids = []
+    for instance in place(scene.instances, scene.drives, parts, matings, "t").instances:
+        mesh = parts[instance.part].to_trimesh(0.002)
+        vertices = instance.scene_from_part.apply(mesh.vertices).astype(np.float32)
+        solids.append(manifold3d.Manifold(manifold3d.Mesh(vertices, mesh.faces.astype(np.uint32))))
+    told = matings[0].contact(0.0, 0.0, None)
+    # chords and facets lie within 0.002 mm of both surfaces
+    assert solids[0].min_gap(solids[1], 1.0) == pytest.approx(told.worst.gap, abs=0.0041)
+    assert told.gaps == pytest.approx([0.05] * len(told.gaps), abs=1e-9)
+    assert told.greatest_gap == pytest.approx(max(told.side_gaps[0]), abs=1e-9)
 
 
 @pytest.mark.parametrize(("beta", "own"), [(BETA, (0.2, 0.0)), (0.0, (0.15, 0.05))])
