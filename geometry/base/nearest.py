@@ -120,7 +120,9 @@ def nearer(refusal: ParameterError, holds: Callable[[float], bool]) -> Parameter
         own, given = refusal.nearest, refusal.value
         if own is None or not (isinstance(own.value, float) and isinstance(given, float)):
             return own
-        return nearest(holds, given, own.value)
+        found = nearest(holds, given, own.value)
+        # a value that alone works is no limit
+        return own if found is not None and found.value == own.value else found
 
     return refusal.told_of(refusal.name, refusal.value, cure)
 
