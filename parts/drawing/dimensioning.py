@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from heapq import merge
-from itertools import islice, pairwise, product
+from itertools import accumulate, islice, pairwise, product
 from operator import attrgetter
 
 import numpy as np
@@ -58,7 +58,9 @@ _SLOPE = math.tan(math.radians(30))
 # places whose costs are told at once
 _AT_ONCE = 16
 # rows of a side, and layouts of a view, that are tried
-_ROWS, _TRIES = 20, 12
+ROWS, _TRIES = 20, 12
+# sizes that share less than this along a side may stand in one row, model mm
+_SHARED = 1e-3
 # marks of a section: from the view to the stroke, its length, its arrow (a view has it too); steps out
 _MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 30
 # how much farther beyond the end of a dimension line its words may stand
@@ -154,6 +156,16 @@ def _filled(
             if order in tried:
                 order = [owner, *rest]
     return None
+
+
+def least_rows(view: View) -> int:
+    """The rows that the sizes on a side of a view take at least, at any scale: no two over one place share a row."""
+    found = 0
+    for side, out in _OUTWARD.items():
+        spans = [sorted(_along(p, out) for p in (one.start, one.end)) for one in view.sizes if one.side == side]
+        ends = sorted(end for low, high in spans for end in ((low + _SHARED, 1), (high - _SHARED, -1)))
+        found = max(found, *accumulate((step for _, step in ends), initial=0))
+    return found
 
 
 class _Layout:
@@ -298,7 +310,7 @@ class _Layout:
         first = _FIRST + self.free.get(size.side, 0.0)
         levels = [
             _Level(out, ends, edge + (out.real + out.imag) * (first + _STEP * index), float(index), row)
-            for index, row in enumerate(self.rows.setdefault(size.side, [[] for _ in range(_ROWS)]))
+            for index, row in enumerate(self.rows.setdefault(size.side, [[] for _ in range(ROWS)]))
         ]
         return self._linears(size, levels, coming)
 
@@ -384,7 +396,7 @@ class _Layout:
         # programs that take every size as aligned read the same number of points beside each other
         ends = start + max(levels) * one.out, start + max(levels) * one.out + long * way
         turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
-        for index, more in product(range(_ROWS), _FARTHER):
+        for index, more in product(range(ROWS), _FARTHER):
             level = max(levels) + _FIRST + _STEP / 2 * index
             feet = [start + level * one.out, start + level * one.out + long * way]
             edges = [Line(p, foot + _BEYOND * one.out) for p, foot in zip((start, end), feet, strict=True)]
@@ -462,7 +474,7 @@ class _Layout:
         """Where an arrow that looks along an axis, or a sign on the extension of a pitch line, may stand."""
         tip = self.paper.point(note.at)
         back = -note.looks
-        for k in range(2 * _ROWS) if back else ():
+        for k in range(2 * ROWS) if back else ():
             foot = tip + (_FIRST + _STEP / 2 * k) * back
             # the letter stands above an arrow that is level, on the right of one that is upright
             beside = complex(2 * ARROW, _ABOVE) if back == 1 else complex(_ABOVE, ARROW)

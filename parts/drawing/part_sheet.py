@@ -9,6 +9,7 @@ from itertools import product
 
 import numpy as np
 
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc
@@ -17,7 +18,7 @@ from parts.base.texts import N_, fault
 from parts.drawing.canvas import SCALES, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, blank, sheet_for
-from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
+from parts.drawing.dimensioning import ROWS, Laid, laid, least_rows, moved, rough_sign
 from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet, Taken
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
@@ -164,6 +165,8 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         The paper is too small for the scale, or none is large enough.
     """
     language = asked.language
+    if (rows := max(map(least_rows, drawing.views))) > ROWS:
+        raise ParameterError("paper", asked.paper, "sizes_fit_no_paper", count=rows, most=ROWS)
     lines: list[str] = []
     for number, text in enumerate(drawing.requirements, 1):
         # one alone has no number (GOST 2.316)
