@@ -103,10 +103,17 @@ class _Flanks:
         table = np.stack([self.gap(np.full((len(slid), len(self.pitches), planes), x), s, off) for x in shares])
         at = np.clip(table.argmin(axis=0), 1, _SHARES - 2)
         low, high = shares[at - 1], shares[at + 1]
+        one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        gap_one, gap_two = self.gap(one, s, off), self.gap(two, s, off)
         for _ in range(_STEPS):
-            one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-            left = self.gap(one, s, off) < self.gap(two, s, off)
+            left = gap_one < gap_two
             low, high = np.where(left, low, one), np.where(left, two, high)
+            # the nearer of both places is one of the next two
+            near, gap_near = np.where(left, one, two), np.where(left, gap_one, gap_two)
+            new = np.where(left, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
+            gap_new = self.gap(new, s, off)
+            one, two = np.where(left, new, near), np.where(left, near, new)
+            gap_one, gap_two = np.where(left, gap_new, gap_near), np.where(left, gap_near, gap_new)
         share = (low + high) / 2
         gaps = np.minimum(self.gap(share, s, off), table.min(axis=0)).reshape(len(slid), -1)
         best = gaps.argmin(axis=1)
@@ -173,14 +180,17 @@ def contact_under(thread: Thread, teeth: WormTeeth, errors: AxisErrors, toleranc
     # the teeth lead a wheel that stands too high round by so much
     off = turn_for(teeth, errors) * -worm.sign * worm.parameter
     steep = math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
+    before = math.inf
     for _ in range(_ROUNDS):
         # the upper sides are the lower ones after half a turn about the line of centres
         found = [_side(thread, teeth, replace(errors, axial=way * errors.axial), way * slid, way * off)
                  for way in (1.0, -1.0)]  # fmt: skip
         gaps, points = np.stack([gap for gap, _ in found]), np.stack([at for _, at in found])
         ahead = float(gaps[1].min() - gaps[0].min())
-        if not abs(ahead) > _MIDDLE * worm.module or not math.isfinite(ahead):
+        # what stands in the worm's core comes no nearer to its middle by a turn
+        if not min(abs(ahead), abs(ahead - before)) > _MIDDLE * worm.module or not math.isfinite(ahead):
             break
+        before = ahead
         off += ahead / (2 * steep)
     distance = teeth.centre_distance + errors.centre_distance
     return _told(worm, teeth, allowed, slid, gaps, points, _lands(worm, teeth, errors), distance)
