@@ -8,6 +8,7 @@ irrational unless n is 1, 2 or 6: no bound is met exactly there.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
@@ -199,22 +200,41 @@ class Search(Record):
 
 def found_sets(wish: Search) -> list[PlanetarySet]:
     """Every set that keeps the wish, the smallest first, then the one nearest to the middle of the ratios."""
+    middle = (wish.ratios[0] + wish.ratios[1]) / 2
+    found = [(one.diameter, abs(ratio - middle), one) for ratio, one in _kept(wish, _candidates(wish))]
+    return [one for _, _, one in sorted(found, key=lambda item: (item[0], item[1], item[2].teeth))]
+
+
+def nearest_ratio(wish: Search) -> Fraction | None:
+    """The ratio of the set that keeps the wish nearest to the middle of the ratios; None: no set does."""
+    teeth = _candidates(wish)
+    z1, z2, z2p, z3 = teeth.astype(float)
+    carried = z2 * z3 / (z1 * z2p) * (1 if wish.scheme.alike else -1)
+    above, below = (a + b * carried for a, b in (_WILLIS[wish.driven], _WILLIS[wish.driver]))
+    with np.errstate(divide="ignore"):
+        away = np.abs(-above / below - float(wish.ratios[0] + wish.ratios[1]) / 2)
+    return next((ratio for ratio, _ in _kept(wish, teeth[:, np.argsort(away, kind="stable")])), None)
+
+
+def _candidates(wish: Search) -> Numbers:
+    """Teeth z1, z2, z2', z3 (4, n) of all sets that may keep the wish."""
     bounds = _carried_bounds(wish)
     if bounds is None:
-        return []
-    teeth = (_double if wish.scheme.double else _single)(wish, *bounds)
-    middle = (wish.ratios[0] + wish.ratios[1]) / 2
-    found: list[tuple[Fraction, Fraction, PlanetarySet]] = []
-    for row in _assembled(wish, teeth).T.tolist():
-        one = PlanetarySet(wish.scheme, tuple(row), wish.modules, wish.cosine)
+        return np.zeros((4, 0), dtype=np.int64)
+    return _assembled(wish, (_double if wish.scheme.double else _single)(wish, *bounds))
+
+
+def _kept(wish: Search, teeth: Numbers) -> Iterator[tuple[Fraction, PlanetarySet]]:
+    """Those that keep it, in their order, with their ratios."""
+    for row in teeth.T:
+        one = PlanetarySet(wish.scheme, tuple(row.tolist()), wish.modules, wish.cosine)
         ratio = ratio_of(one.carried_ratio, wish.driver, wish.driven)
         if ratio is None or not wish.ratios[0] <= ratio <= wish.ratios[1]:
             continue
         if wish.satellites > 1 and not one.fits(Fraction(1, wish.satellites), wish.gap):
             continue
         if wish.diameter is None or one.diameter <= wish.diameter:
-            found.append((one.diameter, abs(ratio - middle), one))
-    return [one for _, _, one in sorted(found, key=lambda item: (item[0], item[1], item[2].teeth))]
+            yield ratio, one
 
 
 def _carried_bounds(wish: Search) -> tuple[Fraction, Fraction] | None:

@@ -22,6 +22,7 @@ from geometry.gears.planetary.sets import (
     Search,
     coaxial_modules,
     found_sets,
+    nearest_ratio,
     ratio_of,
     sine_of,
 )
@@ -195,17 +196,17 @@ class _Page:
             self.cosine,
         )
 
-        def within(percent: Fraction) -> list[PlanetarySet]:
+        def within(percent: Fraction) -> Search:
             room = abs(ratio) * percent / 100
-            return found_sets(replace(wish, ratios=(ratio - room, ratio + room)))
+            return replace(wish, ratios=(ratio - room, ratio + room))
 
         def cure() -> Nearest | None:
             """The ratio nearest to the wanted one that has sets."""
-            sets = next((sets for percent in (1, 3, 10, 40, 99) if (sets := within(Fraction(percent)))), [])
-            ratios = [r for one in sets if (r := ratio_of(one.carried_ratio, self.driver, self.driven)) is not None]
-            return Nearest(float(min(ratios, key=lambda r: abs(r - ratio)))) if ratios else None
+            tried = (nearest_ratio(within(Fraction(percent))) for percent in (1, 3, 10, 40, 99))
+            found = next((one for one in tried if one is not None), None)
+            return None if found is None else Nearest(float(found))
 
-        sets = within(exact(keys.ratio_tolerance_percent))
+        sets = found_sets(within(exact(keys.ratio_tolerance_percent)))
         if not sets:
             raise ParameterError("ratio", keys.ratio, "no_planetary_set", cure)
         return sets

@@ -12,7 +12,16 @@ import pytest
 
 from geometry.base.errors import ParameterError
 from geometry.gears.planetary.assembly import Satellites, given_set
-from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, Search, carried_of, found_sets, ratio_of
+from geometry.gears.planetary.sets import (
+    LINKS,
+    SCHEMES,
+    PlanetarySet,
+    Search,
+    carried_of,
+    found_sets,
+    nearest_ratio,
+    ratio_of,
+)
 from tests.sampling import some_of
 
 
@@ -215,3 +224,28 @@ def test_whole_numbers_stay_exact_where_the_ratio_has_many_digits() -> None:
     assert found
     assert all(1 - one.carried_ratio == Fraction("2.5") for one in found)
     assert found_sets(Search(SCHEMES["james"], (ratio, ratio))) == []
+
+
+@pytest.mark.parametrize("name", SCHEMES)
+def test_the_nearest_ratio_is_that_of_the_nearest_of_all_sets(name: str) -> None:
+    """In many orders of the links; before, every set of a range was made for it: 17 s of CPU for u = 5 of David's."""
+    told = 0
+    for driver, driven in itertools.permutations(LINKS, 2):
+        for ratio in (Fraction(5), Fraction(-7, 3), Fraction(9, 10)):
+            room = abs(ratio) / 2
+            wish = Search(SCHEMES[name], (ratio - room, ratio + room), driver, driven, 2, (6, 24))
+            ratios = [ratio_of(one.carried_ratio, driver, driven) for one in found_sets(wish)]
+            off = min((abs(r - ratio) for r in ratios if r is not None), default=None)
+            found = nearest_ratio(wish)
+            assert (None if found is None else abs(found - ratio)) == off
+            told += found is not None
+    assert told >= 3
+
+
+def test_the_nearest_ratio_is_found_by_few_sets(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The nearest candidates first, until one keeps the wish: 440 511 were made."""
+    made = []
+    fits = PlanetarySet.fits
+    monkeypatch.setattr(PlanetarySet, "fits", lambda one, *given: made.append(one) or fits(one, *given))
+    assert nearest_ratio(Search(SCHEMES["david"], (Fraction(1, 20), Fraction(199, 20)))) is not None
+    assert len(made) < 100
