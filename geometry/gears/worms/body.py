@@ -28,6 +28,8 @@ _POINTS = 40
 _SAME = 1e-9
 # places on a line at which the ends of a thread are looked at
 _SAMPLES = 65
+# axial pitches of the longest thread, whose STEP has some 120 MB
+_MOST_PITCHES = 1000
 
 
 Ends = Literal["cut", "blunt", "run_out"]
@@ -184,8 +186,11 @@ class WormBody(Record):
         Raises
         ------
         ParameterError
-            The thread is too short for its ends.
+            The thread is too short for its ends, or so long that its faces fill the memory.
         """
+        most = _MOST_PITCHES * math.pi * self.thread.worm.module
+        if self.length > most:
+            raise ParameterError.beyond("thread_length", self.length, "worm_thread_too_long", most, most=_MOST_PITCHES)
         least = self.least_length()
         if not self.length > least:
             raise ParameterError.beyond("thread_length", self.length, "worm_thread_too_short", least * (1 + 1e-9))

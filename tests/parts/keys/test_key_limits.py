@@ -332,6 +332,12 @@ def test_a_worm_is_as_thick_as_its_quotient_or_its_lead_says() -> None:
     assert (worm.fillet_coefficient, worm.thinning) == (0.3, 0.1)
 
 
+def test_a_thread_of_more_pitches_than_memory_holds_is_refused() -> None:
+    """Of module 1e-6 mm and 40 mm, 13 million pitches filled 15 GB before anything was told."""
+    check_limit(scene_of(WORM | {"module": 0.1}), "parts.p.thread_length", "worm_thread_too_long",
+                1000 * math.pi * 0.1, "at_most", near=1e-4)  # fmt: skip
+
+
 def test_directions_go_on_by_steps_and_stay_what_they_are_within_a_turn() -> None:
     for start, angle, wanted in ((10.0, 20.0, 30.0), (350.0, 10.0, 360.0), (350.0, 20.0, 10.0), (-350.0, -20.0, -10.0),
                                  (-10.0, -350.0, -360.0), (0.0, 725.0, 5.0)):  # fmt: skip
