@@ -210,7 +210,8 @@ def _candidate(curve: Curve, count: int, nodes: Real, coordinate: Real, toleranc
     """
     best = _with_first_share(curve, count, nodes, coordinate, _END_SHARE)
     expected = tolerance if best is None else 0.6 * best.error
-    if best is not None and (best.error <= tolerance or not _steepens(curve)):
+    # one arc alone has no first length
+    if count == 1 or (best is not None and (best.error <= tolerance or not _steepens(curve))):
         return best
     for share in _FIRST_SHARES:
         other = _with_first_share(curve, count, nodes, coordinate, share)

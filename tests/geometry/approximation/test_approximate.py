@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from geometry.approximation import arcs as fitting
 from geometry.approximation.arcs import arc_error, arc_spline
 from geometry.approximation.chords import approximate_profile, chord_error, chord_parameters
 from geometry.base.errors import ConvergenceError
@@ -340,3 +342,18 @@ def test_error_constants_of_one_arc(kind: str, constant: float) -> None:
     assert lean == pytest.approx(change * length**2 / 12 if kind == "lean" else 0.0, rel=0.03, abs=1e-12)
     found = brute.distance_to_edge(FLANK.point(np.linspace(a, b, 2001)), points[0], points[1], bulge).max()
     assert found == pytest.approx(change * length**3 / constant, rel=0.03)
+
+
+def test_one_arc_alone_is_tried_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It has no first length to vary: the same arc was tried seven times."""
+    tried: list[int] = []
+    with_share = fitting._with_first_share
+
+    def counted(curve: Curve, count: int, *rest: Any) -> Any:
+        tried.append(count)
+        return with_share(curve, count, *rest)
+
+    monkeypatch.setattr(fitting, "_with_first_share", counted)
+    arc_spline(FLANK, 10.0)
+    arc_spline(FILLET, 10.0)
+    assert tried.count(1) == 2
