@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from msgspec.structs import replace
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from parts.base.psv import rows_of
 from parts.recipes.names import NAMES
@@ -24,6 +24,8 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
 }  # fmt: skip
 # orders of assembly, a step or some a row; what keys of parts are keys of their recipe
 _ORDERS, _ORIGINS = rows_of(__file__, "orders"), rows_of(__file__, "origins")
+# of gears whose module is sought, mm
+_LEAST_MODULE = 0.1
 # rounding of a square plate's corners; depth of marks where what has them is thick enough, mm
 _CORNER, _MARK = 10.0, 0.4
 
@@ -51,6 +53,13 @@ def refused_by(
     if not isinstance(given, float) or not isinstance(end, float):
         return ParameterError(name, list(given) if isinstance(given, tuple) else given, code, None, **told)
     return ParameterError(name, given, code, partial(nearest, partial(works, name), given, end), **told)
+
+
+def module_to_span(given: float, span: float, step: int = 1) -> Nearest | None:
+    """The nearest module of three digits by which whole numbers from 12 on, each a multiple of ``step``, span mm."""
+    modules = [span / n for n in range(12, round(span / _LEAST_MODULE) + 1, step)]
+    told = [short for module in modules if abs((short := round(module, 3)) - module) < 1e-12]
+    return Nearest(min(told, key=lambda module: abs(module - given))) if told else None
 
 
 def mark(thickness: float) -> Table:

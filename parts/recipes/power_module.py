@@ -44,7 +44,7 @@ from parts.pages.module_rules import (
     sizes,
     valued,
 )
-from parts.recipes.making import Making, holes_on, on_circle, place
+from parts.recipes.making import Making, holes_on, module_to_span, on_circle, place
 from parts.recipes.names import NAMES
 from parts.recipes.power_module_kinematics import IDLER_SHIFT
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
@@ -152,7 +152,8 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     if keys.orientation == "cranks" and keys.wheel_module != DRIVERS["wheel_module"]:
         raise ParameterError("wheel_module", keys.wheel_module, "for_thesis_only")
     if not _spanned(keys, arm):
-        raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", None, arm=arm)
+        cure = module_to_span(keys.wheel_module, arm / (3 if keys.orientation == "idlers" else 1))
+        raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", cure, arm=arm)
     return found
 
 

@@ -21,7 +21,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError, limit
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, holes_on, on_circle, place, refused_by
+from parts.recipes.making import Making, hole, holes_on, module_to_span, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
@@ -84,10 +84,12 @@ class _Sizes:
         """Teeth of the wheels 6, 7, 8 of the thesis, or of wheels and idlers: their meshes span an arm."""
         keys = self.keys
         exact = self.arm / keys.wheel_module
-        teeth = (exact, exact) if keys.orientation == "thesis" else (exact * 2 / 3, exact / 3)
+        thirds = 1 if keys.orientation == "thesis" else 3
+        teeth = (exact, exact) if thirds == 1 else (exact * 2 / 3, exact / 3)
         whole = round(teeth[0]), round(teeth[1])
         if abs(whole[0] - teeth[0]) > 1e-9 or min(whole) < 12 or whole[1] % 2 or whole[0] % 2:
-            raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", None, arm=self.arm)
+            cure = module_to_span(keys.wheel_module, self.arm / thirds, 2)
+            raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", cure, arm=self.arm)
         return whole
 
     def checked(self) -> _Sizes:

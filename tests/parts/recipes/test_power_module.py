@@ -102,9 +102,11 @@ def test_every_position_has_its_rules() -> None:
         ({"disk_thickness": 3.0}, "disk_thickness = 3.*at least"),
         ({"balls": 2000}, "between two balls of the .* circle; .*at most"),
         ({"module": 10.0}, "assemblies"),
-        ({"wheel_module": 5.0, "orientation": "thesis"}, "wheel_module = 5"),
+        ({"wheel_module": 5.0, "orientation": "thesis"}, "wheel_module = 5.*; 4.8 mm works"),
+        # 81 mm are 40 of 2.025
+        ({"teeth": (96, 150), "orientation": "thesis"}, "wheel_module = 2.0.*; 2.025 mm works"),
         ({"wheel_module": 3.0}, 'wheel_module = 3.* "thesis" only'),
-        ({"wheel_module": 2.3, "orientation": "idlers"}, "wheel_module = 2.3"),
+        ({"wheel_module": 2.3, "orientation": "idlers"}, "wheel_module = 2.3.*; 2 mm works"),
         ({"module": 2.4, "wheel_module": 1.6, "orientation": "idlers"}, "module = 2.4|teeth"),
         ({"axial_gap": 2.2, "orientation": "idlers"}, "axial_gap = 2.2.*before the link.*at least"),
         ({"axial_gap": 1.0}, "axial_gap = 1.*collars of the pins 35.*at least"),

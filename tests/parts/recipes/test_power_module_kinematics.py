@@ -198,6 +198,8 @@ def test_what_cannot_be_is_refused_by_its_driver(keys: dict[str, Any], code: str
     assert refused.value.code == code
     assert name in refused.value.key
     near = refused.value.nearest
+    # some module always spans the arm
+    assert near is not None or code != "wheels_do_not_span_arm"
     assert all(value >= 0 for value in refused.value.numbers.values() if isinstance(value, float))
     if near is not None:
         placed(module(**keys | {name: near.value}))
