@@ -110,9 +110,13 @@ def _check_meshing(sheet: ReadSheet, wanted: Meshing, taken: Taken) -> None:
     action, active = actions[0], actives[0]
     way = (action.end - action.start) / abs(action.end - action.start)
     for centre, radius in wanted.tangents:
-        off = abs(abs(((centre - action.start) / way).imag) - radius)
+        foot = (centre - action.start) / way
+        off = abs(abs(foot.imag) - radius)
+        # what its ends are off, so far beyond them
+        share = foot.real / abs(action.end - action.start)
+        beyond = abs(share) + abs(1 - share)
         told = N_("the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm")
-        taken.unless(off <= 2 * taken.room + 1e-9 * radius, told, radius=radius, off=off)
+        taken.unless(off <= 2 * taken.room * beyond + 1e-9 * radius, told, radius=radius, off=off)
     for point in (active.start, active.end):
         off = abs(((point - action.start) / way).imag)
         taken.unless(off <= 2 * taken.room, "the active line leaves the line of action by {off:.3g} mm", off=off)

@@ -234,6 +234,26 @@ def test_what_stands_over_each_other_or_leaves_the_frame_is_told(file: Path, tmp
     ]
 
 
+def test_no_rounding_misses_a_base_circle_far_beyond_the_line_of_action(tmp_path: Path) -> None:
+    """Of gears of 1001 and 2000 teeth a PDF's line was said to miss circles ten of its lengths away by 0.0005 mm."""
+
+    def missed(path: Path, one: Expected) -> int:
+        return sum("misses the base circle" in failure for failure in verify_sheets(path, [one], 1e-6).failures)
+
+    middle, layers = 100 + 150j, ("LINE_OF_ACTION", "ACTIVE_LINE")
+    for number, degrees in enumerate(np.linspace(1.0, 41.0, 9)):
+        way, whole = complex(np.exp(1j * math.radians(degrees))), expected()
+        canvas = replace(whole.canvas, strokes=[s for s in whole.canvas.strokes if s.layer not in layers])
+        canvas.line("LINE_OF_ACTION", middle - 20 * way, middle + 20 * way)
+        canvas.line("ACTIVE_LINE", middle, middle + 2 * math.pi * way)
+        write_sheets(tmp_path / f"{number}.pdf", [canvas], "Sheet")
+        for more, wanted in ((0.0, 0), (0.05, 2)):
+            tangents = tuple((middle + along * way * (1 + 5j), 4000.0 + more) for along in (-800.0, 800.0))
+            assert whole.meshing is not None
+            one = replace(whole, canvas=canvas, meshing=replace(whole.meshing, tangents=tangents))
+            assert missed(tmp_path / f"{number}.pdf", one) == wanted
+
+
 def test_a_mesh_without_its_lines_is_told(file: Path, tmp_path: Path) -> None:
     one = expected()
     for layer in ("LINE_OF_ACTION", "ACTIVE_LINE", "ARC_OF_ACTION", "WORKING_PITCH"):
