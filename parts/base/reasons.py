@@ -18,7 +18,7 @@ REMEDIES = {
     "at_least": N_("at least {value} works"),
     "exactly": N_("{value} works"),
     "meant": N_("did you mean {value}?"),
-    "without": N_("remove it"),
+    "without": N_("remove {key}"),
 }
 _MORE: dict[str, Text] = {}
 

@@ -148,7 +148,7 @@ def explained(refusal: SceneError) -> Message:
     if letter := look_alike(f"{refusal.key} {word}"):
         why = message("{why}; {remedy}", why=why, remedy=letter)
     if (nearest := refusal.nearest) is not None:
-        why = message("{why}; {remedy}", why=why, remedy=_remedy(nearest, refusal.unit))
+        why = message("{why}; {remedy}", why=why, remedy=_remedy(nearest, refusal))
     return why if refusal.rulers is None else _following(why, refusal.rulers)
 
 
@@ -165,12 +165,12 @@ def _following(why: Message, rulers: Rulers) -> Message:
     return message("{why}; the part follows from {keys}", why=why, keys=others) if few else why
 
 
-def _remedy(nearest: Nearest, unit: str) -> Message:
+def _remedy(nearest: Nearest, refusal: SceneError) -> Message:
     """What would work: a limit or a value with its unit, a word that was meant, or to leave the key out."""
     if nearest.value is None:
-        return Message(REMEDIES["without"])
+        return message(REMEDIES["without"], key=refusal.key.rpartition(".")[2])
     if isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool):
-        return message(REMEDIES[nearest.side], value=in_unit(f"{nearest.value:.12g}", nearest.value, unit))
+        return message(REMEDIES[nearest.side], value=in_unit(f"{nearest.value:.12g}", nearest.value, refusal.unit))
     value = str(nearest.value) if nearest.side == "meant" else format_value(nearest.value)
     return message(REMEDIES[nearest.side], value=value)
 

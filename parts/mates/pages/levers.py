@@ -51,6 +51,7 @@ _DRAWN_CRANK, _SHARE = 30.0, 0.5 + 0.5j
 _CHOICE = ("code", "assignment", "variant")
 # keys of the sheet alone
 _OF_SHEET = ("sheet", "paper", "title_block", "second_position")
+_OF_DRIVE = ("drive_pressure_angle_deg", "drive_angle_deg")
 # percent that a plan may be off (guidelines, 2.2.2, 7), and how finely it is read, mm
 _TOLERANCE, _READ = 3.0, 0.1
 
@@ -108,13 +109,12 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
         "pivot_angle_deg": keys.second == "rocker", "guide_height": slides, "guide_angle_deg": slides,
         "resisted": keys.resistance is not None or keys.resisting_moment is not None,
         "gravity": weighs(keys), "gravity_angle_deg": weighs(keys) and keys.gravity > 0, "force_scale": asked(keys),
-        "drive_radius": asked(keys), "drive_pressure_angle_deg": keys.drive_radius is not None,
-        "drive_angle_deg": keys.drive_radius is not None, "centres": asked(keys),
-        "centre_offsets": asked(keys),
+        "drive_radius": asked(keys), "centres": asked(keys), "centre_offsets": asked(keys),
     }  # fmt: skip
-    for name in _OF_SHEET[1:]:
-        if name in table and keys.sheet is None:
-            raise ParameterError(name, table[name], "needs_other", REMOVED, other="sheet")
+    owners = dict.fromkeys(_OF_SHEET[1:], "sheet") | dict.fromkeys(_OF_DRIVE, "drive_radius")
+    for name, other in owners.items():
+        if name in table and getattr(keys, other) is None:
+            raise ParameterError(name, table[name], "needs_other", REMOVED, other=other)
     if keys.second_position is not None and keys.second_position >= keys.positions:
         works = Nearest(keys.positions - 1, "at_most")
         raise ParameterError(

@@ -403,7 +403,7 @@ def refused(*keys: str) -> tuple[str, str]:
         (("assignment=1", "centres.3=5"), "centres", "of_no_link"),
         (("assignment=1", "force_scale=5"), "force_scale", "of_no_link"),
         (("assignment=1", "drive_radius=5"), "drive_radius", "of_no_link"),
-        (("assignment=1", "masses.2=1", "drive_angle_deg=5"), "drive_angle_deg", "of_no_link"),
+        (("assignment=1", "masses.2=1", "drive_angle_deg=5"), "drive_angle_deg", "needs_other"),
         (("assignment=1", "resisting_moment=5"), "resisting_moment", "needs_rocker"),
         (("assignment=10", "resistance=5"), "resistance", "needs_slider"),
         (("assignment=1", "masses.2=1", "resisted=both"), "resisted", "of_no_link"),

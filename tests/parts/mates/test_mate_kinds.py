@@ -137,7 +137,7 @@ def test_a_backlash_that_nothing_is_left_to_give_is_refused(kind: str) -> None:
     assert scene(thin, mate)[1][0].normal_backlash == pytest.approx(own, rel=1e-9)
     assert scene(thin, {**mate, "normal_backlash": round(own, 5)})[1][0].normal_backlash == pytest.approx(own, rel=1e-9)
     for asked in (0.05, 0.3):
-        with pytest.raises(SceneError, match=f"normal_backlash = {asked}.*{own:.6g} mm; remove it"):
+        with pytest.raises(SceneError, match=f"normal_backlash = {asked}.*{own:.6g} mm; remove normal_backlash"):
             scene(thin, {**mate, "normal_backlash": asked})
 
 

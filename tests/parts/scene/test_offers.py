@@ -291,6 +291,14 @@ def test_a_gear_in_mesh_with_its_twin_is_offered_the_shift_that_both_take(shift:
     assert judged(raw, refusal) == []
 
 
+def test_what_is_to_be_removed_is_named() -> None:
+    """Before: ``remove it`` behind two keys, and in Ukrainian a masculine of whatever the key is."""
+    refusal = refusal_of(put(scenes()["new sprocket"], ("parts", "gear", "roller_diameter"), 8.0))
+    assert refusal is not None
+    assert sentence(refusal).endswith("give either chain or roller_diameter; remove roller_diameter")
+    assert sentence(refusal, "uk").endswith("задайте або chain, або roller_diameter; приберіть roller_diameter")
+
+
 def test_a_value_is_told_as_it_was_typed() -> None:
     """A shift of helical teeth is reckoned in the transverse section: told was -9.65829233706."""
     refusal = refusal_of(put(scenes()["cut gear"], ("parts", "p", "profile_shift_coefficient"), -9.999))

@@ -38,7 +38,7 @@ def test_transmission_error_of_others_than_involutes_is_told() -> None:
 
 
 def test_a_length_of_loose_pins_is_refused() -> None:
-    with pytest.raises(SceneError, match=r"plate\.pin_length = 5.*remove it"):
+    with pytest.raises(SceneError, match=r"plate\.pin_length = 5.*remove pin_length"):
         make_parts(scene({"plate": PLATE | {"pins": "holes", "pin_length": 5.0}}), "t")
 
 

@@ -106,7 +106,8 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
      ("profile_shift_coefficient = 0.5", 0, "centre distance 31 mm, ratio 10: CONTACT"),
      ("working_centre_distance = 23.0", 2, "working_centre_distance = 23.0: asks for a profile shift of -3.5 of"),
      ("working_centre_distance = 31.0\nprofile_shift_coefficient = 0.5", 2,
-      "profile_shift_coefficient = 0.5: give either working_centre_distance or profile_shift_coefficient; remove it")],
+      "profile_shift_coefficient = 0.5: give either working_centre_distance or profile_shift_coefficient; "
+       "remove profile_shift_coefficient")],
 )  # fmt: skip
 def test_a_wheel_is_shifted_for_a_given_centre_distance(
     given: str, code: int, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -101,7 +101,7 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(kind: str, tmp_
     [
         ({"hand": "right"}, {}, 'pinion.hand = "right": must fit its mate; "left" works'),
         ({"spiral_angle_deg": 25.0}, {}, "pinion.spiral_angle_deg = 25.0: must fit its mate; 30 degrees"),
-        ({}, {"spiral_angle_deg": None}, "pinion.spiral_angle_deg = 30.0: must fit its mate; remove it"),
+        ({}, {"spiral_angle_deg": None}, "pinion.spiral_angle_deg = 30.0: must fit its mate; remove spiral_angle_deg"),
         ({"tooth_line": "straight"}, {}, 'pinion.tooth_line = "straight": must fit its mate; "arc"'),
         ({"face_width": 5.0}, {}, "pinion.face_width = 5.0: must fit its mate"),
         ({"cutter_radius": 18.0}, {"cutter_radius": 19.0}, "pinion.cutter_radius = 18.0: must fit its mate; 19 mm"),
