@@ -205,8 +205,13 @@ class Fitting(Record):
             good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x) for m in meshes))
             x = next(good, None)
             return None if x is None else self._with(meshes, distance, (x, x))
-        found = [next((x for x in self._rim_shifts(m) if self._keeps(m, distance, x)), None) for m in meshes]
-        return None if None in found else self._with(meshes, distance, (found[0] or 0.0, found[1] or 0.0))
+        rims = []
+        for mesh in meshes:
+            x = next((x for x in self._rim_shifts(mesh) if self._keeps(mesh, distance, x)), None)
+            if x is None:
+                return None
+            rims.append(x)
+        return self._with(meshes, distance, (rims[0], rims[1]))
 
     def _rim_shifts(self, mesh: RimMesh) -> list[float]:
         """The shifts of a rim that are tried, the least first; that at which it is no longer undercut among them."""

@@ -59,3 +59,14 @@ def test_fitted_sets_are_in_contact_without_overlap(
             reach = 2 * fit.distance * math.sin(math.pi / satellites) - 2 * pair.first.tip_radius
             assert reach >= fit.gap - 1e-9
             assert fit.gap >= 0
+
+
+def test_where_the_first_mesh_has_no_shifts_the_second_is_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before, both meshes were searched at every distance."""
+    asked: list[bool] = []
+    monkeypatch.setattr(Fitting, "_keeps", lambda own, mesh, distance, shift: asked.append(mesh.internal) or False)
+    wish = Search(SCHEMES["one_external_one_internal"], (Fraction(7), Fraction(71, 10)), satellites=2)
+    fit = Fitting(RACK, Requirements(0.25, 1.1), Fraction(1, 2))
+    assert fit.fit(found_sets(wish)[0]) is None
+    assert asked
+    assert not any(asked)
