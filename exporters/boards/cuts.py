@@ -59,7 +59,6 @@ def _depths(boundaries: Sequence[Approximation]) -> list[int]:
     boxes = [ring.box() for ring in rings]
     low, high = np.array([a for a, _ in boxes]), np.array([b for _, b in boxes])
     first = np.array([ring.expanded()[0][0] for ring in rings])
-    polygons = [_polygon(ring) for ring in rings]
     depths = [0] * len(rings)
     for index in range(len(rings)):
         within = (low[index].real < low.real) & (low[index].imag < low.imag)
@@ -67,7 +66,7 @@ def _depths(boundaries: Sequence[Approximation]) -> list[int]:
         inside = np.flatnonzero(within)
         if not len(inside):
             continue
-        held = shapely.contains_xy(polygons[index], first[inside].real, first[inside].imag)
+        held = shapely.contains_xy(_polygon(rings[index]), first[inside].real, first[inside].imag)
         for k in inside[held]:
             depths[k] += 1
     return depths

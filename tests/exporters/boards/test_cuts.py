@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from exporters.boards import cuts
 from exporters.boards.cuts import in_order
 from geometry.plane.contour import Approximation, Contour
 
@@ -84,3 +85,12 @@ def test_what_lies_in_the_bulge_of_an_arc_lies_within(turn: complex) -> None:
     at = turn * (50 + 20j)
     rows = {"plate": ("CUT_INNER", plate), "bore": ("CUT_INNER", circle(at.real, at.imag, 4))}
     assert [name for name, _ in order(rows)] == ["bore", "plate"]
+
+
+def test_only_what_holds_others_becomes_a_polygon(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before, every contour of a board did: 285 of each board of lesson_2, most of them holes that hold nothing."""
+    made: list[Contour] = []
+    monkeypatch.setattr(cuts, "_polygon", lambda ring, own=cuts._polygon: made.append(ring) or own(ring))
+    rows = [("CUT_OUTER", square(0, 0, 100)), *(("CUT_INNER", circle(10 + 15 * k, 50, 5)) for k in range(5))]
+    in_order(rows)
+    assert len(made) == 1
