@@ -75,7 +75,7 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
     height_coefficient: Annotated[float, in_modules("height of the relieved part", least=0.01, most=3)] = 0.45
 
 
-_TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000, example=50.0)
+_TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=2e6, example=50.0)
 _PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x (xi in the sources)", least=-10, most=10)
 
 

@@ -197,6 +197,15 @@ second = "wheel"
 """
 
 
+def test_the_table_of_a_gear_takes_the_tip_that_its_mate_leaves_however_large() -> None:
+    """What the mate leaves of m 50, z 1927 is typed into its calculation: 125 884 mm were more than the key took."""
+    gear = 'kind = "spur_gear"\nmodule = 50.0\nface_width = 250.0\nhelix_angle_deg = 40.0\n'
+    one, two = "number_of_teeth = 1927\nprofile_shift_coefficient = 0.08\n", 'number_of_teeth = 1019\nhand = "left"\n'
+    pair = f"[parts.a]\n{gear}{one}[parts.b]\n{gear}{two}"
+    mate = '[[mates]]\nkind = "external_gear_pair"\nfirst = "a"\nsecond = "b"\n'
+    assert set(tables("large", pair + mate)) == {"a", "b"}
+
+
 @pytest.mark.parametrize(("width", "symbols"), [(30.0, ["k", "W"]), (20.0, ["D", "M"])])
 def test_a_span_is_told_that_one_helix_of_two_holds(width: float, symbols: list[str]) -> None:
     """W sin beta_b of z 25, m 2, 30 degrees is 12.98 mm: half of 20 mm does not hold it, the whole face would."""
