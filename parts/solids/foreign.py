@@ -476,8 +476,12 @@ def _surface_of(face: TopoDS_Face) -> tuple[Geom_BSplineSurface, Real] | None:
     from OCP.GeomAbs import GeomAbs_Shape
     from OCP.GeomConvert import GeomConvert, GeomConvert_ApproxSurface
 
-    bounds = BRepTools.UVBounds_s(face)
-    part = Geom_RectangularTrimmedSurface(BRep_Tool.Surface_s(face), *bounds)
+    whole = BRep_Tool.Surface_s(face)
+    bounds, ends = (np.reshape(found, (2, 2)) for found in (BRepTools.UVBounds_s(face), whole.Bounds()))
+    for way, closed in enumerate((whole.IsUPeriodic(), whole.IsVPeriodic())):
+        # the kernel's projections of edges end some 1e-9 beyond what there is
+        bounds[way] = bounds[way] if closed else np.clip(bounds[way], *ends[way])
+    part = Geom_RectangularTrimmedSurface(whole, *bounds.ravel().tolist())
     surface = GeomConvert.SurfaceToBSplineSurface_s(part)
     if surface.IsURational() or surface.IsVRational() or max(surface.UDegree(), surface.VDegree()) > _MOST_DEGREE:
         smooth = GeomAbs_Shape.GeomAbs_C1
@@ -485,7 +489,7 @@ def _surface_of(face: TopoDS_Face) -> tuple[Geom_BSplineSurface, Real] | None:
         if not made.HasResult() or made.MaxError() > 10 * _SAME:
             return None
         surface = made.Surface()
-    return surface, np.reshape(bounds, (2, 2))
+    return surface, bounds
 
 
 def _sides(face: TopoDS_Face, bounds: Real) -> Iterator[tuple[TopoDS_Edge, tuple[int, bool] | None]]:

@@ -361,6 +361,29 @@ def test_the_area_of_an_elbow_is_told_and_read_back(tmp_path: Path) -> None:
         assert main(["build", str(tmp_path / "alone.toml"), "--out", str(tmp_path / "o")]) == 0, name
 
 
+def test_a_face_whose_bounds_end_beyond_its_spline_is_taken_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By rounding, as of the wheel of our own bevel pair: 1.1e-9, of which the kernel makes no trimmed surface."""
+    import OCP.BRepTools
+
+    kernel: Any = OCP.BRepTools.BRepTools
+
+    class Wide(kernel):  # type: ignore[misc]
+        """Bounds that begin too early."""
+
+        @staticmethod
+        def UVBounds_s(face: Any) -> tuple[float, ...]:
+            """As the kernel finds them, but for the first."""
+            first, *others = kernel.UVBounds_s(face)
+            return (first - 5e-9, *others)
+
+    written(tmp_path / "body.step", _shapes()["loft"]())
+    volume = alone(tmp_path).body(0.0).moments.volume
+    monkeypatch.setattr(OCP.BRepTools, "BRepTools", Wide)
+    assert alone(tmp_path).body(0.0).moments.volume == pytest.approx(volume, rel=1e-9)
+
+
 def test_rational_splines_become_what_they_are(tmp_path: Path) -> None:
     """Cylinders, planes and circles, whose volume is a closed form to the last digits; an ellipse is followed."""
     for name, volume in (("rational", 900 * math.pi), ("rational_cone", 75 * math.pi)):
