@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -78,7 +79,7 @@ class SwingGuide(Record):
 Guide = AxialGuide | SwingGuide
 
 
-class BarrelCam(Record):
+class BarrelCam(Record, dict=True):
     """A follower's motion, its guide, and the cylinder that makes the walls; lengths in mm.
 
     ``radius``: of the roller with half of its clearance; ``outer`` and ``inner``: the cylinders between which the
@@ -291,7 +292,7 @@ class BarrelCam(Record):
 
     def foot(self, points: Real, near: Real, width: float) -> tuple[Real, Real]:
         """Distances of points (n, 3) as above, mm, and the cam angles of those places, by ones close by, rad."""
-        width += 0.1 * self.radius / (self.outer + self.fastest())
+        width += 0.1 * self.radius / (self.outer + self.fastest)
         away, _, at = self._refined(points, near, near - width, near + width)
         return away, at
 
@@ -300,6 +301,7 @@ class BarrelCam(Record):
         found = [self._nearest(points[i : i + _CHUNK]) for i in range(0, len(points), _CHUNK)] or [(np.zeros(0),) * 2]
         return np.concatenate([d for d, _ in found]), np.concatenate([s for _, s in found])
 
+    @cached_property
     def fastest(self) -> float:
         """About the greatest speed of the roller, mm/rad."""
         return max(float(np.abs(self.place(np.linspace(*p.domain, 9), 1, p)[1]).max()) for p in self.motion.pieces)
@@ -309,7 +311,7 @@ class BarrelCam(Record):
         polar, size = np.angle(plane), np.abs(plane)
         ends = [y + sense * room for y, sense in zip(self.side_range(), (-1, 1), strict=True)]
         first, last = (np.arcsin(np.clip(y / size, -_SIDE, _SIDE)) for y in ends)
-        count = math.ceil(np.clip(_PER_SLOPE * (1 + self.fastest() / self.inner), _LEAST, _MOST))
+        count = math.ceil(np.clip(_PER_SLOPE * (1 + self.fastest / self.inner), _LEAST, _MOST))
         return np.asarray(-polar + first + np.linspace(0, 1, count)[:, None] * (last - first))
 
     def _nearest(self, points: Real) -> tuple[Real, Real]:

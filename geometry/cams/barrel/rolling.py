@@ -151,7 +151,7 @@ def _halved(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real, apart:
     row, edge = np.arange(len(z)), np.argmax(apart, axis=1)
     a, b, c = edge, (edge + 1) % 3, (edge + 2) % 3
     middle, height, near = ((x[row, a] + x[row, b]) / 2 for x in (plane, z, at))
-    width = np.ptp(at, axis=1) + 0.1 * cam.radius / (cam.outer + cam.fastest())
+    width = np.ptp(at, axis=1) + 0.1 * cam.radius / (cam.outer + cam.fastest)
     touched = _refined(cam, side, middle, near, near - width, near + width)
     found = []
     for old, new in ((plane, middle), (z, height), (at, touched)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -84,7 +85,7 @@ def test_the_extremes_of_a_cam_are_those_of_dense_samples(cam: BarrelCam) -> Non
         assert most == pytest.approx(max(pressures), abs=1e-4)
         assert where == pytest.approx(pressures[max(pressures)], abs=0.02)
     speed = max(np.abs(np.gradient(cam.place(np.linspace(0, 2 * math.pi, 4000), 0)[0], 2 * math.pi / 3999)))
-    assert cam.fastest() == pytest.approx(speed, rel=0.02)
+    assert cam.fastest == pytest.approx(speed, rel=0.02)
 
 
 @CAMS
@@ -134,3 +135,20 @@ def test_a_wall_ends_at_its_cylinders(cam: BarrelCam, side: int) -> None:
     far = [cam.wall(ANGLES, -side, 26.0), cam.wall(ANGLES, side, OUTER + 0.06 * INNER), cam.wall(ANGLES, side, 20.0)]
     for points in far:
         assert np.isinf(track.distance(cam, points)).all()
+
+
+@CAMS
+def test_the_greatest_speed_is_asked_of_each_piece_once(cam: BarrelCam, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before, of all pieces for each search of a foot: the square of a table's rows."""
+    own, asked, place = replace(cam), [], BarrelCam.place
+
+    def counted(one: BarrelCam, angle: Any, order: int = 1, piece: Any = None) -> Any:
+        asked.append(piece)
+        return place(one, angle, order, piece)
+
+    monkeypatch.setattr(BarrelCam, "place", counted)
+    points, near = np.array([[26.0, 0.0, 0.0]]), np.zeros(1)
+    for _ in range(3):
+        own.foot(points, near, 0.01)
+    told = [piece for piece in asked if piece is not None]
+    assert len(told) == len(own.motion.pieces)
