@@ -81,11 +81,14 @@ def seen_profile(gear: BevelGear, tolerance: float) -> Profile:
 
 
 def _seen_side(gear: BevelGear, tolerance: float) -> list[Segment]:
-    """Fillet and flank of the upper side, from the root on."""
-    sides = []
+    """Fillet and flank of the upper side, from the root on; they meet beyond what a long cone distance rounds."""
+    sides: list[Segment] = []
     for name, label in zip(_SIDES, (Label.ROOT_FILLET, Label.FLANK), strict=True):
         knots, poles, _ = _fitted(gear, name, tolerance)
-        sides.append(Segment(SeenEdge(BSpline(_DEGREE, knots, poles[:, 0] + 1j * poles[:, 1])), label))
+        seen = poles[:, 0] + 1j * poles[:, 1]
+        if sides:
+            seen[0] = end_point(sides[-1].curve)
+        sides.append(Segment(SeenEdge(BSpline(_DEGREE, knots, seen)), label))
     return sides
 
 

@@ -246,6 +246,16 @@ HOLED: dict[str, Any] = {
 }  # fmt: skip
 
 
+def test_a_gear_beside_a_mate_of_metres_is_drawn_too() -> None:
+    """Fillet and flank met within 1e-13 of the gear's own size, and are known to that of a cone distance a hundred
+    times as large: 3.7e-12 mm with 5000 teeth of the mate."""
+    raw: dict[str, Any] = {"parts": {"gear": PINION | {
+        "number_of_teeth": 20, "mate_number_of_teeth": 10_000, "shaft_angle_deg": 170.0, "profile_shift_coefficient": 0.0,
+    }}}  # fmt: skip
+    profile = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"].section(0.0).region.outer
+    assert len(profile.period) == 6
+
+
 def test_holes_run_from_the_front_to_the_back_of_the_rim(tmp_path: Path) -> None:
     """As cylinders that are taken out of it; files and the sheet are read back."""
     keys = {name: value for name, value in HOLED.items() if name != "holes"}
