@@ -249,9 +249,8 @@ HOLED: dict[str, Any] = {
 def test_a_gear_beside_a_mate_of_metres_is_drawn_too() -> None:
     """Fillet and flank met within 1e-13 of the gear's own size, and are known to that of a cone distance a hundred
     times as large: 3.7e-12 mm with 5000 teeth of the mate."""
-    raw: dict[str, Any] = {"parts": {"gear": PINION | {
-        "number_of_teeth": 20, "mate_number_of_teeth": 10_000, "shaft_angle_deg": 170.0, "profile_shift_coefficient": 0.0,
-    }}}  # fmt: skip
+    keys = {"number_of_teeth": 20, "mate_number_of_teeth": 10_000, "shaft_angle_deg": 170.0}
+    raw: dict[str, Any] = {"parts": {"gear": PINION | keys | {"profile_shift_coefficient": 0.0}}}
     profile = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"].section(0.0).region.outer
     assert len(profile.period) == 6
 
