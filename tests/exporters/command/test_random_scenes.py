@@ -83,5 +83,5 @@ def test_a_solid_that_only_the_check_asks_for_is_refused_in_its_key(command: str
     )
     code, _, said = _run(command, str(scene), *(("--out", str(tmp_path / "out")) if command == "build" else ()))
     assert code == 2
-    assert "parts.wheel.face_chamfer.below = 0.3: is higher than the hub; at most 0.164 mm works" in said
+    assert "parts.wheel.face_chamfer.below = 0.3: leaves no upright wall of the hub; at most 0.163 mm works" in said
     assert not (tmp_path / "out").exists()
