@@ -24,7 +24,7 @@ from parts.drawing.labels import Labeller
 HATCH, HATCH_STEP = 4.0, 2.5
 _MARK = 0.7
 # around squared paper, for the axes' ends and names, mm
-_NAMES = 5.0
+NAMES = 5.0
 
 
 class Joint(Record):
@@ -62,7 +62,7 @@ class Joint(Record):
         """
         drawn, to = Drawn(), paper.point
         if asked.by_hand:
-            room = Box.of([to(corner) for corner in window.corners]).grown(-_NAMES)
+            room = Box.of([to(corner) for corner in window.corners]).grown(-NAMES)
             canvas.squares_about(paper.origin, room)
         canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
         canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))

@@ -16,7 +16,7 @@ from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.synthesis import oscillating_axis
 from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
-from parts.cams.sheets.joint import HATCH, HATCH_STEP, angle_text, name_asked
+from parts.cams.sheets.joint import HATCH, HATCH_STEP, NAMES, angle_text, name_asked
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import draw_faces, faces_box, from_pivot, name_numbers, name_rocker, rocker_region
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
@@ -57,7 +57,7 @@ class Swing(Record):
         """Arms, the diagram, the region's border with its hatching, both axes; by hand these on squared paper."""
         drawn, to, mount = Drawn(), paper.point, self.picture.cam.swing
         if asked.by_hand:
-            canvas.squares_about(to(0j), Box.of([to(corner) for corner in window.corners]))
+            canvas.squares_about(to(0j), Box.of([to(corner) for corner in window.corners]).grown(-NAMES))
             drawn.line(canvas, "AXIS", to(0j), to(self.pivot))
             for point in (0j, self.pivot):
                 canvas.add("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
