@@ -10,11 +10,13 @@ import numpy as np
 from geometry.cams.plane.coupler import LinkageCam
 from geometry.curves.line_arc import Arc
 from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
+from parts.base.texts import words
 from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.tables import Grid
 from parts.drawing.canvas import SMALL_TEXT, Canvas, Paper
 from parts.drawing.labels import Labeller
+from parts.pages.page import unit_text
 from parts.texts.sheets import sheet_words
 
 _TURN = 2 * math.pi
@@ -142,13 +144,15 @@ def position_grid(picture: CamPicture, cam: LinkageCam) -> Grid:
     turn = cam.mount.linkage.pose([cam.motion.value(angle)])[1][0]
     theta, place, profile = np.degrees(np.unwrap(np.angle(turn))), cam.place(angle), cam.profile_point(angle)
     centre, contact = (np.degrees(f(angle)) for f in (cam.pressure_angle, cam.contact_pressure_angle))
-    heads = ("№", "φ, °", "θ, °", "x_{02}", "y_{02}", "ν_{0}, °", "ν, °", "ξ_{1}", "η_{1}")
-    rows: list[tuple[str, ...]] = [(sheet_words(language, "cam_positions"),), heads]
+    heads = ("№", "φ", "θ", "x_{02}", "y_{02}", "ν_{0}", "ν", "ξ_{1}", "η_{1}")
+    mm = unit_text("mm", words(language))
+    units = ("", "°", "°", mm, mm, "°", "°", mm, mm)
+    rows: list[tuple[str, ...]] = [(sheet_words(language, "cam_positions"),), heads, units]
     for k, position in enumerate(picture.positions):
         values = (math.degrees(position.angle), theta[k], place[k].real, place[k].imag, centre[k], contact[k],
                   profile[k].real, profile[k].imag)  # fmt: skip
         rows.append((str(position.number), *(picture.say(float(x)) for x in values)))
-    return Grid(_COLUMNS, tuple(rows), answers=(0, 0, *[7] * len(picture.positions)))
+    return Grid(_COLUMNS, tuple(rows), answers=(0, 0, 0, *[7] * len(picture.positions)), heads=3)
 
 
 def _outward(point: complex) -> complex:

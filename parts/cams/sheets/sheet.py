@@ -29,9 +29,9 @@ from parts.texts.sheets import sheet_words
 # papers that hold all of a cam, each with the length of a turn on its axis of abscissae, mm
 _TURNS = {"A2": 180.0, "A1": 360.0, "A0": 360.0}
 _TITLE, _MARGIN, _CAPTION = 14.0, 4.0, 9.0
-# between tables; rows of the scales and the meaning of lines with the gaps around them, mm
+# between tables, mm; rows of the scales, and what those over time add
 _GRID_GAP = 3.0
-_SMALL_GRIDS = 17 * ROW + 3 * _GRID_GAP
+_SCALES, _TIMES = 10, 3
 # width and height of the main inscription, GOST 2.104, form 1: the lower right corner stays free for it, mm
 INSCRIPTION = (185.0, 55.0)
 # least height of the joint diagram
@@ -86,7 +86,9 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     first = characteristics(calculation, picture)
     graphical = graphical_grid(calculation, picture)
     places = None if linked is None else position_grid(picture, linked)
-    tall = sum(g.height for g in (first, graphical, places) if g) + _SMALL_GRIDS + (_GRID_GAP if places else 0.0)
+    lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
+    heights = [g.height for g in (first, lines, graphical, places) if g]
+    tall = sum(heights) + len(heights) * _GRID_GAP + ROW * (_SCALES + (0 if picture.speed_rpm is None else _TIMES))
     layout, paper = _layout(picture, tall, asked, has_joint=diagram is not None)
     pages = [layout.diagrams.page, layout.profile.page][: 1 if layout.tables else 2]
     scales = scales_of(picture, layout.diagrams.area.wide - LEFT - RIGHT,
@@ -106,7 +108,6 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
         page.drawn.append(diagram.draw(page.canvas, *seen, asked))
     _captions(picture, layout, paper)
     scale = None if page.joint is None else page.joint.scale
-    lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
     grids = [g for g in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical, places) if g]
     pages += _flow(grids, layout, asked)
     for number, one in enumerate(pages, 1):

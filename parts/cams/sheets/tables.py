@@ -31,13 +31,17 @@ _LEFT_OUT = {
 
 
 class Grid(Record):
-    """Columns (mm) and rows of cells; a row of one cell is a heading; ``samples``: layers whose line a row shows."""
+    """Columns (mm) and rows of cells; a row of one cell is a heading; ``samples``: layers whose line a row shows.
+
+    ``heads``: rows that stand above what is cut off too.
+    """
 
     columns: tuple[float, ...]
     rows: tuple[tuple[str, ...], ...]
     samples: tuple[tuple[int, str], ...] = ()
     answers: tuple[int, ...] = ()
     row: float = ROW
+    heads: int = 1
 
     @property
     def height(self) -> float:
@@ -51,9 +55,9 @@ class Grid(Record):
         return replace(self, columns=tuple(share * column for column in self.columns), row=high)
 
     def cut(self, rows: int) -> tuple[Grid, Grid]:
-        """The first ``rows`` and the rest, under the same heading."""
-        rest = (self.rows[0], *self.rows[rows:]) if rows < len(self.rows) else ()
-        left = (*self.answers[:1], *self.answers[rows:]) if rest else ()
+        """The first ``rows`` and the rest, under the same heads."""
+        rest = (*self.rows[: self.heads], *self.rows[rows:]) if rows < len(self.rows) else ()
+        left = (*self.answers[: self.heads], *self.answers[rows:]) if rest else ()
         return (
             replace(self, rows=self.rows[:rows], answers=self.answers[:rows]),
             replace(self, rows=rest, answers=left),
@@ -144,26 +148,17 @@ def graphical_grid(calculation: Sheet, picture: CamPicture) -> Grid | None:
     table = next((t for t in calculation.tables if t.name == "graphical"), None)
     if table is None:
         return None
-    name = "ψ" if picture.swings else "S"
-    heads = (
-        "№",
-        "φ, °",
-        f"{name}''_{{g}}",
-        f"{name}'_{{g}}",
-        f"{name}'",
-        f"Δ{name}'",
-        f"{name}_{{g}}",
-        name,
-        f"Δ{name}",
-    )
-    rows: list[tuple[str, ...]] = [(words(picture.language).say(table.title),), heads]
+    name, told = "ψ" if picture.swings else "S", words(picture.language)
+    bends, rates, lifts = (unit_text(table.heads[k][1], told) for k in (2, 3, 5))
+    heads = ("№", "φ", f"{name}''_{{g}}", f"{name}'_{{g}}", f"{name}'", f"Δ{name}'", f"{name}_{{g}}", name, f"Δ{name}")
+    units = ("", "°", bends, rates, rates, rates, lifts, lifts, lifts)
+    rows: list[tuple[str, ...]] = [(told.say(table.title),), heads, units]
     say = picture.say
     for number, phi, bend, rate, exact_rate, lift, exact in table.rows:
         rows.append((f"{number:.0f}", say(phi), say(bend), say(rate), say(exact_rate), say(rate - exact_rate, 3),
                      say(lift), say(exact), say(lift - exact, 3)))  # fmt: skip
-    return Grid(
-        (9.0, 15.0, 15.0, 14.0, 14.0, 16.0, 14.0, 14.0, 15.0), tuple(rows), answers=(0, 0, *[7] * len(table.rows))
-    )
+    columns = (9.0, 15.0, 15.0, 14.0, 14.0, 16.0, 14.0, 14.0, 15.0)
+    return Grid(columns, tuple(rows), answers=(0, 0, 0, *[7] * len(table.rows)), heads=3)
 
 
 def draw_grid(canvas: Canvas, corner: complex, grid: Grid) -> None:

@@ -127,7 +127,21 @@ def test_numbers_on_the_sheet_are_those_of_the_calculation(name: str) -> None:
         cells += [said(rate - exact_rate, 3), said(row["Sg"], 2), said(row["S"], 2), said(row["Sg"] - row["S"], 3)]
         rows += [f"{row['n']:.0f}", *cells]
     start = next(k for k in range(len(texts)) if texts[k : k + len(rows)] == rows)
-    assert texts[start - 9] == "№"
+    # above it the heads, and the unit of each
+    bend, rate, lift = ("мм/рад²", "мм/рад", "мм") if language == "uk" else ("mm/rad²", "mm/rad", "mm")
+    assert texts[start - 8 : start] == ["°", bend, *[rate] * 3, *[lift] * 3]
+    assert texts[start - 17] == "№"
+
+
+def test_a_table_that_goes_on_has_its_heads_and_units_there_too() -> None:
+    jobs = plan_build(cam_scene(ROCKER, paper="A4", intervals=40, tolerance=1e-3), "t", [], []).sheets
+    told = [[text.text for text in job.canvas.texts] for job in jobs]
+    tables = [texts for texts in told if any("by the drawing" in text for text in texts)]
+    assert len(tables) > 1
+    for texts in tables:
+        start = texts.index("№")
+        assert texts[start + 1 : start + 4 : 2] == ["φ", "ψ'g"]
+        assert texts[start + 9 : start + 13] == ["°", "°/rad²", "°/rad", "°/rad"]
 
 
 def test_both_views_of_the_roller_cam_tell_the_same_motion(tmp_path: Path) -> None:
