@@ -16,6 +16,8 @@ from parts.drawing.title_block import TITLE_BLOCK
 _GAP, _TITLE_GAP = 9.0, 3.5
 # what words about a piece take of it, mm, which does not grow with it, and caution in what would be held
 _WORDS, _CAUTION = 40.0, 0.95
+# papers tried for one sheet, where none is asked for
+_ONE = ("A3", "A2")
 # points of a curve by which its reach is told
 _POINTS = 65
 
@@ -48,20 +50,31 @@ def titled(canvas: Canvas, *titles: str) -> Piece:
     return Piece(canvas, reach(canvas))
 
 
-def laid(pieces: Sequence[Piece], paper: str) -> list[Canvas]:
+def laid(pieces: Sequence[Piece], paper: str | None) -> list[Canvas]:
     """Lying sheets of a paper with all pieces, in their order where as few then hold them as with the tallest or the
-    largest first; the lower right corners are kept for title blocks.
+    largest first; the lower right corners are kept for title blocks. None: the smallest of which one sheet holds all,
+    else A1.
 
     Raises
     ------
     ParameterError
         ``paper``: it does not hold one of them, with the least that does.
     """
+    if paper is None:
+        return next((one for name in _ONE if len(one := _kept(pieces, name)) == 1), None) or laid(pieces, "A1")
     orders = pieces, *(sorted(pieces, key=by) for by in (lambda p: -p.room.tall, lambda p: -p.room.wide * p.room.tall))
     pages = min((_packed(order, paper) for order in orders), key=len)
     for page in pages:
         _spread(page)
     return [page.canvas for page in pages]
+
+
+def _kept(pieces: Sequence[Piece], paper: str) -> list[Canvas]:
+    """The same, none where the paper is too small for one of them."""
+    try:
+        return laid(pieces, paper)
+    except ParameterError:
+        return []
 
 
 def _packed(pieces: Sequence[Piece], paper: str) -> list[_Page]:

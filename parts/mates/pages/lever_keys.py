@@ -39,6 +39,7 @@ _SHEET = (
     "DXF, SVG or PDF file of the coursework's sheet to write: scheme in all positions, plans, diagrams, forces and "
     "Zhukovsky's lever, each to its scale"
 )
+_PAPER = "size of the sheet's paper; default: A3 or A2 where one sheet of it holds all drawings, else A1"
 _DRAWN = "length of the crank on the drawing; default: 30 mm, on a sheet what gives a round scale"
 _SECOND = "number of another position whose plans the sheet has too"
 _MEASURED = (
@@ -111,14 +112,14 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     force_scale: Annotated[float, Meta(gt=0, le=1e12, description="N for 1 mm of the plans of forces")] | None = None
     picture: Annotated[str, Meta(description="SVG file of scheme, plans and diagrams to write")] | None = None
     sheet: Annotated[str, Meta(description=_SHEET)] | None = None
-    paper: Annotated[PaperName, Meta(description="size of the sheet's paper")] = "A1"
+    paper: Annotated[PaperName, Meta(description=_PAPER)] | None = None
     title_block: TitleBlockKey = True
     second_position: Annotated[int, Meta(ge=1, le=719, description=_SECOND)] | None = None
 
 
 def room_of(keys: LeverKeys) -> float:
     """Room of the longest vector of a plan, mm."""
-    return LARGE_ROOM if keys.sheet is not None and keys.paper in ("A1", "A0") else ROOM
+    return LARGE_ROOM if keys.sheet is not None and keys.paper in (None, "A1", "A0") else ROOM
 
 
 def levers_of(keys: LeverKeys) -> Levers:

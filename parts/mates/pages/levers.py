@@ -204,7 +204,7 @@ class _Page:
         from parts.drawing.choice import PAPERS
 
         spots = np.concatenate([np.zeros(1), *map(self.turn.place, self.turn.points)])
-        tall, wide = PAPERS[self.keys.paper]
+        tall, wide = PAPERS[self.keys.paper or "A1"]
         needed = max(np.ptp(spots.real) / (_SHARE.real * wide), np.ptp(spots.imag) / (_SHARE.imag * tall))
         return self.levers.crank / (1000 * standard_scale(float(needed) / 1000))
 

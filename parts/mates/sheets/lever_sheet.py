@@ -63,7 +63,7 @@ class LeverDrawing(Record, eq=False):
     lever: tuple[LeverForce, ...]
     speed: float
     given: dict[str, float]
-    paper: str
+    paper: str | None
     block: TitleBlockTable | None
 
     def pages(self, language: str) -> list[Expected]:

@@ -39,8 +39,10 @@ class Read:
 
     def scale(self, index: str) -> float:
         """The first scale with this index: its pieces stand in one line, behind each other."""
-        mark = next(at for text, at in self.words if text == index and self._before(at).endswith("μ"))
-        return float(re.findall(r"= ([\d.,e+-]+) ", self._after(mark))[0].replace(",", "."))
+        marks = (at for text, at in self.words if text == index and self._before(at).endswith("μ"))
+        # formulas have it too
+        told = next(found for mark in marks if (found := re.findall(r"= ([\d.,e+-]+) ", self._after(mark))))
+        return float(told[0].replace(",", "."))
 
     def _before(self, at: complex) -> str:
         row = [(p.real, t) for t, p in self.words if abs(p.imag - at.imag) < 1.5 and 0 < at.real - p.real < 120]
@@ -154,7 +156,7 @@ def test_it_is_written_as_svg_and_pdf_in_the_language(tmp_path: Path) -> None:
         keys = ["code=1071", "title_block.designation=КР.15.0107.К6", f"sheet={(tmp_path / name).as_posix()}"]
         calculate("lever", keys, "text", "uk")
     text = (tmp_path / "lever.svg").read_text(encoding="utf-8")
-    for told in ("Схема", "= 0,01 м/мм", "План швидкостей", "КР.15.0107.К6", 'width="841mm" height="594mm"'):
+    for told in ("Схема", "= 0,01 м/мм", "План швидкостей", "КР.15.0107.К6", 'width="594mm" height="420mm"'):
         assert told in text
     assert (tmp_path / "lever.pdf").read_bytes().startswith(b"%PDF")
 
@@ -185,6 +187,15 @@ def refused(*keys: str) -> SceneError:
     with pytest.raises(SceneError) as caught:
         calculate("lever", keys, "text", "en")
     return caught.value
+
+
+@pytest.mark.parametrize(("keys", "width"), [((), 594), (("drawn_crank=100",), 841), (("paper=A1",), 841)])
+def test_the_paper_is_the_smallest_that_holds_all_on_one_sheet(
+    tmp_path: Path, keys: tuple[str, ...], width: int
+) -> None:
+    """Those of the worked example took a quarter of an A1."""
+    calculate("lever", ["code=1071", *keys, f"sheet={(tmp_path / 'lever.svg').as_posix()}"], "text", "en")
+    assert f'width="{width}mm"' in (tmp_path / "lever.svg").read_text(encoding="utf-8")
 
 
 def test_what_fits_no_sheet_is_refused_by_its_key_with_what_works(tmp_path: Path) -> None:
