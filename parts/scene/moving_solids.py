@@ -131,10 +131,15 @@ class _Space:
         own = (self.shapes[pair[0].part], self.shapes[pair[1].part])
         if lift is not None and pass_by(own, lift):
             return
-        spins = [i.id in self.course.spins and self.shapes[i.part].count(0.0, math.inf) > 0 for i in pair]
+        spins = [self._spins(i) for i in pair]
         if any(spins) and not is_mated and self._sweeps_past(found, pair, (spins[0], spins[1])):
             return
         self._search(found, pair, own, _MATED_POSES if is_mated else MOST_POSES, reports=not is_mated)
+
+    def _spins(self, one: Instance) -> bool:
+        """Whether it is not round about the axis of its own on which it turns; what stands still sweeps nothing."""
+        turns = one.id in self.course.spins and self.course.chains[one.id][0].rate != 0
+        return turns and self.shapes[one.part].count(0.0, math.inf) > 0
 
     def _sweeps_past(self, found: MotionFound, pair: tuple[Instance, Instance], spins: tuple[bool, bool]) -> bool:
         """Whether what both sweep stays apart."""

@@ -92,6 +92,23 @@ def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
         assert 0 < found["solids"][0]["drive_turn_deg"] < 360
 
 
+@pytest.mark.parametrize(("y", "strikes"), [(28.5, False), (27.5, True)])
+def test_what_stands_still_beside_a_lying_gear_is_not_swept(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], y: float, strikes: bool
+) -> None:
+    """The plate ends at y = 20 and turned on its axis would reach the gear, whose tips turn at 8 mm: the one pose of
+    what the gear sweeps tells all."""
+    gear = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 14, "profile_shift_coefficient": 0.3,
+            "tip_diameter": 16.0, "face_width": 6.0}  # fmt: skip
+    plate = {"kind": "plate", "width": 60.0, "height": 40.0, "face_width": 10.0}
+    placed = {"plate": {"at": [0, 0, -5]}, "gear": {"at": [0, y, 0], "axis": [1, 0, 0]}}
+    raw = {"parts": {"gear": gear, "plate": plate}, "instances": placed,
+           "drives": [{"instance": "gear", "turns": 1.0}]}  # fmt: skip
+    code, found = check(tmp_path, raw, capsys)
+    assert code == int(strikes)
+    assert strikes or found["motion"] == {"pairs": 1, "tested": 1, "poses": 1, "uncovered": []}
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("slow", [0.01, 0.0001])
 def test_a_carrier_far_slower_than_its_satellites_brings_them_to_a_post(
