@@ -23,10 +23,12 @@ from geometry.plane.profile import Label
 # |gap| up to this part of the pin's radius is contact
 PIN_CONTACT_TOLERANCE = 1e-8
 # drive angles in a pitch of the pins; fewer where there are many pins
-_DRIVE_ANGLES, _MOST_PLACES = 24, 6000
+_DRIVE_ANGLES, _MOST_PLACES = 96, 6000
 _LEAST_ANGLES = 4
 # least gaps are found to this part of the pin's radius
 _ACCURACY = 1e-13
+# rounds of finer drive angles beside the greatest gaps, and how many in a round beside each
+_ROUNDS, _NEAR = 10, 9
 
 
 class PinMotion(Protocol):
@@ -131,11 +133,25 @@ def pin_contact(
     )
     place = _worst(gap, np.append(where, phases), np.append(least, values), others)
     # phase = drive + 2 pi k / N: sorted phases fall into N runs of the same drive angles
-    table = values.reshape(pins, -1)
-    lower = phases.reshape(pins, -1) < 0
-    sides = np.stack([np.where(flags, table, np.inf).min(axis=0) for flags in (lower, ~lower)], axis=1)
-    drives = phases[: table.shape[1]] + math.pi
+    sides = _sides(phases.reshape(pins, -1), values.reshape(pins, -1))
+    drives = phases[: len(sides)] + math.pi
+    near = np.linspace(-step, step, _NEAR)
+    for _ in range(_ROUNDS):
+        # between pins that part and pins that come
+        tops = np.unique(np.argmax(np.column_stack([sides, sides.min(axis=1)]), axis=0))
+        more = np.mod((drives[tops, None] + near).ravel(), 2 * math.pi / pins)
+        seen = more - math.pi + (2 * math.pi / pins * np.arange(pins))[:, None]
+        drives = np.append(drives, more)
+        sides = np.concatenate([sides, _sides(seen, gap(seen.ravel())[0].reshape(seen.shape))])
+        near *= 2 / (_NEAR - 1)
+    order = np.argsort(drives)
+    drives, sides = drives[order], sides[order]
     return told_contact(verdict_of(sides, allowed, place.gap), allowed, drives, sides, place)
+
+
+def _sides(phases: Real, gaps: Real) -> Real:
+    """Least gaps (n, 2) of the pins below and above the line of centres, from those (N, n) of every pin."""
+    return np.stack([np.where(side, gaps, np.inf).min(axis=0) for side in (phases < 0, phases >= 0)], axis=1)
 
 
 def _worst(gap: _Gap, phases: Real, values: Real, others: tuple[ContactPlace, ...]) -> ContactPlace:
