@@ -32,6 +32,7 @@ from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart, step_text
 from tests.exporters.formats.test_step_spoiled import pole
+from tests.exporters.making import read_report, run, write_scene
 from tests.sampling import some_of
 
 PLATE: dict[str, Any] = {"kind": "plate", "width": 20.0, "height": 12.0, "face_width": 3.0,
@@ -287,6 +288,20 @@ def test_samples_are_held_against_profiles() -> None:
     assert told(verify_samples([5 * turn], [disc], 1e-6, 1e-3, [78.5])) == ""
     crossed = 5 * np.concatenate([turn, turn[::-1][5:-5], turn])
     assert "crosses itself" in told(verify_samples([crossed], [disc], 1e-6, 1e-3))
+
+
+def test_what_a_coarse_drawing_encloses_is_borne_as_its_error_is(tmp_path: Path) -> None:
+    """Module 0.01 mm within 1e-4 mm: 0.6 % too much area failed, which that error makes."""
+    rack = {"addendum_coefficient": 1.0, "tip_clearance_coefficient": 0.25, "tip_radius_coefficient": 0.1}
+    gear = {"kind": "spur_gear", "module": 0.01, "number_of_teeth": 6, "pressure_angle_deg": 10.0,
+            "profile_shift_coefficient": -0.3461, "face_width": 0.01, "basic_rack": rack}  # fmt: skip
+    drawing = {"format": "dxf", "purpose": "drawing", "tolerance": 1e-4}
+    assert run("build", write_scene(tmp_path / "s.toml", {"g": gear}, [drawing]), "--out", tmp_path) == 0
+    assert read_report(tmp_path / "s")["failed"] == []
+    # a disc whose points lie as near encloses as much more, and no more than that
+    disc, turn = circle(5.0, Label.BODY), np.exp(2j * np.pi * np.arange(400) / 400)
+    assert told(verify_samples([5.04 * turn], [disc], 0.05, 0.1)) == ""
+    assert "encloses" in told(verify_samples([5 * turn], [disc], 0.05, 0.1, [76.7]))
 
 
 def test_strokes_stand_where_they_are_engraved() -> None:
