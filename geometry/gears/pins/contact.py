@@ -135,15 +135,15 @@ def pin_contact(
     # phase = drive + 2 pi k / N: sorted phases fall into N runs of the same drive angles
     sides = _sides(phases.reshape(pins, -1), values.reshape(pins, -1))
     drives = phases[: len(sides)] + math.pi
-    near = np.linspace(-step, step, _NEAR)
+    beside = np.linspace(-step, step, _NEAR)
     for _ in range(_ROUNDS):
         # between pins that part and pins that come
         tops = np.unique(np.argmax(np.column_stack([sides, sides.min(axis=1)]), axis=0))
-        more = np.mod((drives[tops, None] + near).ravel(), 2 * math.pi / pins)
+        more = np.mod((drives[tops, None] + beside).ravel(), 2 * math.pi / pins)
         seen = more - math.pi + (2 * math.pi / pins * np.arange(pins))[:, None]
         drives = np.append(drives, more)
         sides = np.concatenate([sides, _sides(seen, gap(seen.ravel())[0].reshape(seen.shape))])
-        near *= 2 / (_NEAR - 1)
+        beside *= 2 / (_NEAR - 1)
     order = np.argsort(drives)
     drives, sides = drives[order], sides[order]
     return told_contact(verdict_of(sides, allowed, place.gap), allowed, drives, sides, place)
