@@ -208,6 +208,16 @@ def test_wheels_of_a_helical_set_meet_at_one_distance_with_hands_that_mesh(
     assert made["carrier"]["pin_circle_diameter"] == pytest.approx(2 * found[0], abs=1e-9)
 
 
+@pytest.mark.parametrize("keys", ["teeth = [12, 12, 36]", "teeth = [12, 24, 60]", "teeth = [12, 24, 60]\nmodule = 0.7"])
+def test_default_tips_of_satellites_yield_to_the_fillets_of_their_ring(keys: str, tmp_path: Path, capsys: Any) -> None:
+    """Their cutter's fillets begin before theirs would end: by 0.00085 and 0.0005 mm they were in each other."""
+    text = f'[[assemblies]]\nkind = "planetary_set"\nshaft_diameter = 3.0\npin_diameter = 3.0\n{keys}\n'
+    (tmp_path / "set.toml").write_text(text + "[checks]\ninterference = true\n", encoding="utf-8")
+    assert main(["check", "--json", str(tmp_path / "set.toml")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert {m["verdict"] for m in found["mates"] if "gear_pair" in m["kind"]} == {"contact"}
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("seed", range(300))
 def test_random_sets_turn_through_their_period(seed: int) -> None:
