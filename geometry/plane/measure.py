@@ -162,11 +162,14 @@ def _quick_distance(points: Complex, curves: Sequence[Curve]) -> Real:
     samples = np.concatenate([c.point(t) for c, t in zip(curves, parameters, strict=True)])
     nearest = _nearest_index(points, samples)
     best = np.full(points.shape, np.inf)
+    order = np.argsort(nearest, kind="stable")
+    ranks = nearest[order]
     for index, curve in enumerate(curves):
-        # a nearest sample at a joint speaks for the curves on both sides of it
+        # a nearest sample at a joint speaks for the curves on both sides of it, round the whole
         first, last = index * _COARSE_SAMPLES - 1, (index + 1) * _COARSE_SAMPLES
-        ring = (nearest - first) % len(samples)
-        mine = np.flatnonzero(ring <= last - first)
+        low, high, end = np.searchsorted(ranks, [first, last + 1, len(samples) - 1])
+        beyond = order[end:] if first < 0 else order[:0], order[: np.searchsorted(ranks, last + 1 - len(samples))]
+        mine = np.unique(np.concatenate([order[low:high], *beyond]))
         if mine.size:
             start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
             found = _projected(points[mine], curve, parameters[index], start, newton=False)
