@@ -26,6 +26,8 @@ from parts.solids.kernel import has_kernel
 
 if TYPE_CHECKING:
     from exporters.production.plan import Film, ListJob, SheetJob
+    from parts.base.mate import Mating
+    from parts.base.part import Part
 
 
 class Recheck(Record):
@@ -103,32 +105,30 @@ def _rechecked(file: Path) -> Recheck:
 
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
-    scene = scene_from_resolved(report["scene"], source)
+    told = json.dumps(report["scene"])
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
     if on_sheet(entry["format"], entry["purpose"]) or entry["format"] in OF_SCENES:
         # drawn again from the scene, and the file measured against that
-        job = _sheets_of(json.dumps(report["scene"]), source, entry["format"])[entry["path"]]
+        job = _sheets_of(told, source, entry["format"])[entry["path"]]
         verdict = job.verify(file, declared)
     else:
-        verdict = _held(file, source, scene, entry, declared, tolerance)
+        verdict = _held(file, source, told, entry, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 
 
-def _held(
-    file: Path, source: str, scene: SceneFile, entry: dict[str, Any], declared: float, tolerance: float
-) -> Verdict:
+def _held(file: Path, source: str, told: str, entry: dict[str, Any], declared: float, tolerance: float) -> Verdict:
     """A file of parts: pieces where the report says that they lie, instances in places that are worked out again.
 
     STEP files are held against the CAD kernel as well, where that is installed.
     """
     kind, offset = file_kind(entry["format"], entry["purpose"]), float(entry["offset"])
-    parts, matings = make_parts(scene, source)
+    scene, parts, matings = _made_of(told, source)
     if "board" in entry:
         from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 
         pieces = tuple(
-            BoardPiece(name, told["part"], float(told["turn_deg"]), complex(*told["at"]))
-            for name, told in entry["pieces"].items()
+            BoardPiece(name, piece["part"], float(piece["turn_deg"]), complex(*piece["at"]))
+            for name, piece in entry["pieces"].items()
         )
         board = ExpectedBoard(scene.boards[entry["board"]], parts, pieces, offset)
         return verify_board(file, kind, board, declared, tolerance)
@@ -168,6 +168,13 @@ def audited(file: Path) -> None:
 
 
 # files of one folder are verified one behind the other
+@lru_cache(maxsize=1)
+def _made_of(told: str, source: str) -> tuple[SceneFile, dict[str, Part], list[Mating]]:
+    """A report's scene, given as json, with its parts and mates; made once for all files."""
+    scene = scene_from_resolved(json.loads(told), source)
+    return scene, *make_parts(scene, source)
+
+
 @lru_cache(maxsize=1)
 def _sheets_of(told: str, source: str, form: str) -> dict[str, SheetJob | Film | ListJob]:
     """The sheets of a format by their names, from a report's scene as json; drawn once for all of them."""

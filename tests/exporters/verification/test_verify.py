@@ -12,6 +12,7 @@ from typing import Any
 import ezdxf
 import pytest
 
+from exporters.production import recheck
 from exporters.verification.judge import verify_file
 from geometry.gears.teeth.offset import gear_region
 from geometry.solids.body import plate
@@ -90,6 +91,20 @@ def test_an_unspoiled_file_passes(originals: Path, tmp_path: Path, name: str, ca
     capsys.readouterr()
     assert run("verify", file) == 0
     assert "as reported" in capsys.readouterr().out
+
+
+def test_files_of_one_report_are_held_against_parts_that_are_made_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """For each file anew they took most of the time; another report has parts of its own."""
+    made = []
+    monkeypatch.setattr(recheck, "make_parts", lambda scene, source: made.append(source) or make_parts(scene, source))
+    for folder in (tmp_path / "one", tmp_path / "two"):
+        assert run("build", "print_gear", "--out", folder, "--no-verify") == 0
+        files = [folder / "print_gear" / entry["path"] for entry in read_report(folder / "print_gear")["files"]]
+        assert len(files) > 1
+        assert run("verify", *files) == 0
+    assert made == [str(tmp_path / name / "print_gear" / "report.json") for name in ("one", "two")]
 
 
 @pytest.mark.parametrize("name", [n for n in FORMATS if n.endswith("dxf")])
