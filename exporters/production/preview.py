@@ -16,6 +16,7 @@ from exporters.formats.svg import GROUND, fill, number, page_head, path_data, sa
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
+from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile, Region
@@ -146,8 +147,9 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         if instance.id in lying:
             placed = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]]
         data = " ".join(path_data(contour, corner) for contour in placed)
+        # last digits, which differ from processor to processor, choose no place of a name
         places = [contour.sampled(PER_EDGE) for contour in placed]
-        loops.append([middle + points.real + 1j * (middle - points.imag) for points in places])
+        loops.append([(corner + points.conj()).round(DRAWN_DECIMALS) for points in places])
         shade = plan.parts[instance.part].colour or fill(index)
         style = f"fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         body.append(f'<path d="{data}" style="{style}"/>')
@@ -160,7 +162,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             ends = outers[index].real, outers[index].imag
             place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
-        labels.append(Label(names[instance.id], x, y, size))
+        labels.append(Label(names[instance.id], round(x, DRAWN_DECIMALS), round(y, DRAWN_DECIMALS), size))
     chains = [(found[0] + shift, found[1]) for mate in plan.placing.mates if (found := mate.rollers()) is not None]
     for centres, radius in chains:
         body += _chain(centres, radius, corner, reach)
