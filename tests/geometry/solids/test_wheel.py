@@ -41,7 +41,7 @@ SHAPES = {
     "plate": WheelShape(8.0),
     "chamfers": WheelShape(8.0, chamfer_below=0.3, chamfer_above=0.2),
     "foot": WheelShape(8.0, chamfer_below=0.3),
-    "all chamfer": WheelShape(0.5, chamfer_below=0.25, chamfer_above=0.25),
+    "all chamfer": WheelShape(0.5, chamfer_below=0.2495, chamfer_above=0.2495),
     "web and hub": WheelShape(8.0, Web(3.0, 36.0, 0.5), Hub(16.0, 0.0, 4.0), 0.3, 0.3),
     "web at the face": WheelShape(8.0, Web(3.0, 36.0, 2.5), Hub(16.0, 1.0, 4.0), 0.2, 0.2),
     "hub on both sides": WheelShape(8.0, None, Hub(16.0, 1.0, 4.0), 0.2, 0.3),
