@@ -6,7 +6,7 @@ import cmath
 import math
 from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import ezdxf
 import msgspec
@@ -119,12 +119,12 @@ def _cases() -> list[Any]:
 @pytest.mark.parametrize("purpose", ["part", "assembly"])
 @pytest.mark.parametrize("name", _cases())
 def test_no_word_and_no_line_of_a_drawing_stands_over_another(
-    tmp_path: Path, name: str, purpose: str, language: str
+    tmp_path: Path, name: str, purpose: Literal["part", "assembly"], language: Literal["en", "uk"]
 ) -> None:
     scene = load_scene(name)
-    scene.scene.language = language  # type: ignore[assignment]
-    kinds = {KINDS[type(spec).__struct_config__.tag] for spec in scene.parts.values()}  # type: ignore[index]
-    scene.exports = [ExportSpec(format="dxf", purpose=purpose, tolerance=0.01)]  # type: ignore[arg-type]
+    scene.scene.language = language
+    kinds = {KINDS[str(type(spec).__struct_config__.tag)] for spec in scene.parts.values()}
+    scene.exports = [ExportSpec(format="dxf", purpose=purpose, tolerance=0.01)]
     try:
         sheets = plan_build(scene, name, [], []).sheets
     except SceneError as refusal:

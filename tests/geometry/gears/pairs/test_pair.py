@@ -8,6 +8,7 @@ numbers that are misprints stand in PRACTICUM_MISPRINTS with what they should be
 
 from __future__ import annotations
 
+import cmath
 import math
 import random
 from functools import cache
@@ -16,6 +17,7 @@ import mpmath
 import numpy as np
 import pytest
 
+from geometry.base.angles import involute_function
 from geometry.base.errors import GeometryError, ParameterError
 from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
@@ -194,9 +196,16 @@ def test_the_practicum_pair_touches_all_through_a_pitch(turn: float) -> None:
     assert found.tolerance == 1e-7
     assert len(found.drive_angles) >= 24
     assert found.worst.labels == (Label.FLANK, Label.FLANK)
-    # a place of contact lies on a line of action: through the pitch point, alpha_w from the common tangent; beside it
-    # flanks of some 20 mm of radius are less than the roundings of a gap apart: sqrt(20 * 1e-15) mm
-    arm = found.worst.point - pair.working_radii[0]
+    # a place of contact lies on the first gear's involute, by its closed form
+    first, place = pair.first, found.worst.point
+    alpha, there = first.rack.pressure_angle, math.acos(first.base_radius / abs(place))
+    thickness = (math.pi / 2 + 2 * first.profile_shift_coefficient * math.tan(alpha)) / first.number_of_teeth
+    half = thickness + involute_function(alpha) - involute_function(there)
+    off = math.remainder(cmath.phase(place) - found.worst.drive_angle, first.pitch_angle)
+    assert abs(place) * min(abs(off - half), abs(off + half)) < 1e-9
+    # and on a line of action, through the pitch point, alpha_w from the common tangent; along the flank, whose radius
+    # is some 20 mm, a place is known to what the roundings of its gap leave: sqrt(20 * 1e-15) mm
+    arm = place - pair.working_radii[0]
     assert abs(arm.real) == pytest.approx(abs(arm) * math.sin(pair.working_pressure_angle), abs=2e-7)
     on = pair.second_rotation(turn)
     assert on + pair.second.pitch_angle / 2 - math.pi == pytest.approx(-turn / pair.gear_ratio)
