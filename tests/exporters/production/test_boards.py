@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
+from ezdxf.entities import LWPolyline
 
 from exporters.boards.cuts import nearest_next
 from exporters.boards.nest import Room, nest
@@ -349,7 +350,7 @@ kerf = 0.2
     drawn = {}
     for name in ("tagged.board.1.dxf", "link_with_a_long_name.dxf"):
         space = ezdxf.readfile(tmp_path / "tagged" / name).modelspace()
-        drawn[name] = sum(1 for e in space if e.dxftype() == "LWPOLYLINE" and e.closed)  # type: ignore[attr-defined]
+        drawn[name] = sum(1 for e in space if isinstance(e, LWPolyline) and e.closed)
     assert drawn["tagged.board.1.dxf"] == drawn["link_with_a_long_name.dxf"] + 1
 
 
