@@ -118,5 +118,5 @@ def _forces(page: Sheet, mesh: ChainMesh, torque: float) -> None:
     page.add("chain_force", force, "2000 * pi * {T1} / ({z1} * {p})", _BHANDARI)
     page.add("chain_shaft_load", _LOAD * force, f"{_LOAD} * {{F_t}}", _DUNAEV)
     if chain.breaking_load:
-        page.add("chain_breaking_load", 1000 * chain.breaking_load * chain.strands)
-        page.add("chain_safety", 1000 * chain.breaking_load * chain.strands / force, "{F_u} / {F_t}")
+        page.add("chain_breaking_load", 1000 * chain.breaking_load)
+        page.add("chain_safety", 1000 * chain.breaking_load / force, "{F_u} / {F_t}")

@@ -40,6 +40,8 @@ def test_speeds_and_forces_are_those_of_the_pins() -> None:
     assert found["chain_force"] == pytest.approx(np.average(pull, weights=np.cos(angle)), rel=1e-6)
     assert found["chain_force"] * found["chain_speed"] == pytest.approx(1500.0, rel=1e-12)
     assert found["chain_safety"] == pytest.approx(17_800 / found["chain_force"])
+    two = values("chain=2ПР-25,4-114", *DRIVE[1:], "number_of_links=80", "torque=90")
+    assert two["chain_breaking_load"] == pytest.approx(114_000)
     # Dunaev, Lelikov: a drive that lies loads its shafts by 1.15 of the force; Sheinblit: mounted 0.5 % nearer
     assert found["chain_shaft_load"] == pytest.approx(1.15 * found["chain_force"])
     assert found["mounting_chain_distance"] == pytest.approx(0.995 * found["exact_chain_distance"])

@@ -59,6 +59,25 @@ def test_chains_of_a_makers_table(row: list[float]) -> None:
     assert chain.strands == 2
 
 
+@pytest.mark.parametrize("row", PRINTED["loads"]["rows"], ids=lambda row: row[0])
+def test_strands_of_series_b_break_below_as_many_times_the_load_of_one(row: list[float]) -> None:
+    """As it was: two strands of 08B broke at 35.6 kN, which is 31.1 in ISO 606."""
+    for strands, load in zip((2, 3), row[1:], strict=True):
+        assert named(f"{row[0]}-{strands}").breaking_load == pytest.approx(load, rel=2.5e-3)
+
+
+@pytest.mark.parametrize(
+    ("designation", "apart", "load"),
+    [("12A-2", 22.78, 62.6), ("12A-3", 22.78, 93.9), ("2ПР-12,7-31,8", 13.92, 31.8), ("3ПР-12,7-45,4", 13.92, 45.4),
+     ("2ПР-19,05-64", 22.78, 64), ("3ПР-19,05-96", 22.78, 96), ("2ПР-19,05-72", 25.5, 72), ("3ПР-19,05-108", 25.5, 108),
+     ("2ПР-25,4-114", 29.29, 114), ("3ПР-31,75-265,5", 35.76, 265.5), ("2ПР-44,45-344,8", 48.87, 344.8)],
+)  # fmt: skip
+def test_names_of_gost_tell_the_load_of_all_strands(designation: str, apart: float, load: float) -> None:
+    """GOST 13568-97, and its chains of 3/4 inch of 1975, whose strands stood farther apart."""
+    chain = named(designation)
+    assert (chain.transverse_pitch, chain.breaking_load) == pytest.approx((apart, load))
+
+
 @pytest.mark.parametrize(("table", "chain"), [("plate_wheels_081", "081-1"), ("duplex_32B", "32B-2")])
 def test_pitch_and_tip_diameters_of_catalogues(table: str, chain: str) -> None:
     for teeth, tip, pitch in PRINTED[table]["rows"]:
