@@ -34,7 +34,7 @@ def write_contour_dxf(
     for line in contour.lines:
         for piece in clipped(line.points, contour.box):
             page.polyline(piece, _layer(line.name, line.level))
-    _axes(page, contour)
+    _axes(page, contour, words)
     bottom = _key(page, contour, marks, words)
     box = contour.box
     low = min(bottom, box.bottom * SCALE - 20)
@@ -76,7 +76,7 @@ def _layer(name: str, level: float | None) -> str:
     return name.upper() if level is None else f"{name.upper()}_{level:g}"
 
 
-def _axes(page: _Page, contour: BlockingContour) -> None:
+def _axes(page: _Page, contour: BlockingContour, words: Words) -> None:
     """The box, the axes x1 = 0 and x2 = 0 where they lie in it, and numbers along two of its sides."""
     box, step = contour.box, grid_step(contour.box)
     corners = complex(box.left, box.bottom), complex(box.right, box.bottom), complex(box.right, box.top)
@@ -87,9 +87,9 @@ def _axes(page: _Page, contour: BlockingContour) -> None:
     if box.bottom < 0 < box.top:
         page.line(complex(low.real, 0), complex(high.real, 0), "AXES")
     for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
-        page.text(complex(k * step * SCALE - 4, low.imag - 8), f"{k * step:.3g}", "AXES")
+        page.text(complex(k * step * SCALE - 4, low.imag - 8), words.decimal(f"{k * step:.3g}"), "AXES")
     for k in range(math.ceil(box.bottom / step), math.floor(box.top / step) + 1):
-        page.text(complex(low.real - 17, k * step * SCALE - 2), f"{k * step:.3g}", "AXES")
+        page.text(complex(low.real - 17, k * step * SCALE - 2), words.decimal(f"{k * step:.3g}"), "AXES")
     page.text(complex(high.real - 8, low.imag - 16), "x1", "AXES")
     page.text(complex(low.real - 17, high.imag + 4), "x2", "AXES")
 
@@ -114,6 +114,6 @@ def _key(page: _Page, contour: BlockingContour, marks: dict[str, tuple[float, fl
         point = complex(x1, x2) * SCALE
         page.circle(point, "CHOICES")
         page.text(point + (3 + 3j), told.split(":")[0], "CHOICES")
-        page.text(complex(left, row), f"{told}: {x1:.4f} / {x2:.4f}", "CHOICES")
+        page.text(complex(left, row), words.phrase(f"{told}: {x1:.4f} / {x2:.4f}"), "CHOICES")
         row -= _ROW
     return row

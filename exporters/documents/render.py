@@ -102,10 +102,10 @@ def _html(sheet: Sheet, told: Words) -> str:
     if sheet.picture is not None:
         lines.append(f"<figure>{sheet.picture.svg(told)}</figure>")
     if sheet.notes:
-        items = "".join(f"<li>{html.escape(told.say(note))}</li>" for note in sheet.notes)
+        items = "".join(f"<li>{html.escape(told.phrase(told.say(note)))}</li>" for note in sheet.notes)
         lines.append(f"<ul>{items}</ul>")
     if sheet.signed:
-        lines.append(f"<p>{html.escape(told.say(sheet.signed))}</p>")
+        lines.append(f"<p>{html.escape(told.phrase(told.say(sheet.signed)))}</p>")
     return "\n".join([*lines, "</body>\n</html>"]) + "\n"
 
 
@@ -116,9 +116,9 @@ def _html_section(section: Section, told: Words) -> str:
         name, working, result, _ = _cells(step, told)
         source = html.escape(source_text(step.source, told))
         if step.printed is not None:
-            source += f' <span class="w">{html.escape(printed_text(step, told))}</span>'
+            source += f' <span class="w">{html.escape(told.phrase(printed_text(step, told)))}</span>'
         cells = [
-            f"<td>{html.escape(name)}</td>",
+            f"<td>{html.escape(told.phrase(name))}</td>",
             f'<td class="f">{_subscripts(told.printed(working))}</td>',
             f'<td class="r">{html.escape(told.printed(result) if _is_number(step) else result)}</td>',
             f"<td>{source}</td>",

@@ -24,6 +24,8 @@ ENGLISH = "en"
 DOMAIN = "higherpair"
 # of printed numbers: a hyphen is shorter
 MINUS = "\N{MINUS SIGN}"
+# numbers in words that name or type something: (3.4), fig. 3.9, tip_shortening_coefficient=0.145
+_NAMED = re.compile(r"(\(\d+\.\d+\)|[^\W\d]\. \d+\.\d+(?:\N{EN DASH}\d+\.\d+)?|[a-z]{2,}_[a-z_]+ ?= ?[-\d.]+)")
 LOCALE = Path(__file__).parents[1] / "locale"
 # what plural rules say of a number with a fraction: that of a negative count, which no text has
 _FRACTION = -1
@@ -168,6 +170,14 @@ class Words(NamedTuple):
         # points of indices stay, and hyphens of ranges and names
         told = re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), number)
         return re.sub(r"(?<![\w)}\]-])-(?=\d)", MINUS, told)
+
+    def phrase(self, said: str) -> str:
+        """Words with numbers as the language prints them; names of equations, figures and tables, (3.4) or fig. 3.9,
+        and keys with their values stay as they are read and typed.
+        """
+        told = "".join(one if k % 2 else self.decimal(one) for k, one in enumerate(_NAMED.split(said)))
+        lists = told != said and self.term("decimal point", ".") == ","
+        return re.sub(rf"(?<=\d), (?=[\d{MINUS}])", "; ", told) if lists else told
 
     def printed(self, formula: str) -> str:
         """A formula with its numbers as the language prints it: true minus signs too, no comma of a number beside one

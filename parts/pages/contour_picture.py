@@ -70,7 +70,7 @@ def line_name(name: str) -> Message:
 def line_title(name: str, level: float | None, words: Words) -> str:
     """A line of the contour in words, with its level."""
     unit = " m" if name.startswith("tip") and level else ""
-    return words.say(line_name(name)) + ("" if level is None else f" = {level:g}{unit}")
+    return words.say(line_name(name)) + ("" if level is None else words.decimal(f" = {level:g}{unit}"))
 
 
 def grid_step(box: Box) -> float:
@@ -126,7 +126,7 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
     region = " ".join(f"M {ring} Z" for ring in rings)
     if region:
         lines.append(f'<path d="{region}" style="fill:#e4f2e4;fill-rule:evenodd;stroke:none"/>')
-    lines += _axes(contour, scale, width, height)
+    lines += _axes(contour, scale, width, height, words)
     for line in contour.lines:
         style = STYLES[line.name]
         for piece in clipped(line.points, box):
@@ -173,7 +173,7 @@ def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: 
     y += 19
     for name, (x1, x2) in marks.items():
         lines.append(f'<circle cx="{left + 17:.1f}" cy="{y:.1f}" r="4" style="fill:#d00060"/>')
-        lines.append(written(left + 42, y + 4, f"{name}: {x1:.4f} / {x2:.4f}"))
+        lines.append(written(left + 42, y + 4, words.phrase(f"{name}: {x1:.4f} / {x2:.4f}")))
         y += 19
     return lines
 
@@ -184,7 +184,7 @@ def region_text(contour: BlockingContour, words: Words) -> str:
     asked = [f"ε ≥ {wish.contact_ratio:g}", f"S_a ≥ {wish.tip_thickness:g} m"]
     if isinstance(wish, InternalRequirements):
         asked.append(f"c ≥ {wish.tip_clearance:g} m")
-    return words.text("region: {conditions}", conditions=", ".join(asked))
+    return words.printed(words.text("region: {conditions}", conditions=", ".join(asked)))
 
 
 def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
@@ -198,7 +198,7 @@ def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
     if pair.helix_angle:
         lines.append(f"β = {math.degrees(pair.helix_angle):g}°, ε_β = {pair.overlap_ratio:.4g}")
     if not isinstance(pair, InternalShiftPair):
-        return lines
+        return [*map(words.printed, lines)]
     rule = "k_2 = 0" if pair.plain_tip else "k_2 = 0.25 - 0.125 x_2"
     lines.append(f"r_a2 = r_2 - ({pair.ring_addendum:g} - x_2 - k_2) m, {rule}")
     tools = ((N_("cutter of the ring: {sizes}"), pair.root), (N_("cutter of the pinion: {sizes}"), pair.pinion_cutter))
@@ -213,22 +213,22 @@ def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
             radius = words.term("radius", "full") if tool.radius is None else f"{tool.radius / share:g} m"
             sizes = f"h_f2* = {tool.dedendum / share:g}, ρ = {radius}"
             lines.append(words.text("rounded root of the ring: {sizes}", sizes=sizes))
-    return lines
+    return [*map(words.printed, lines)]
 
 
-def _axes(contour: BlockingContour, scale: float, width: float, height: float) -> list[str]:
+def _axes(contour: BlockingContour, scale: float, width: float, height: float, words: Words) -> list[str]:
     box, lines = contour.box, []
     step = grid_step(box)
     for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
         x = _LEFT + (k * step - box.left) * scale
         heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID
         lines.append(f'<line x1="{x:.2f}" y1="{_TOP:g}" x2="{x:.2f}" y2="{_TOP + height:.2f}" style="{heavy}"/>')
-        lines.append(written(x - 10, _TOP + height + 16, f"{k * step:g}"[:5]))
+        lines.append(written(x - 10, _TOP + height + 16, words.decimal(f"{k * step:g}"[:5])))
     for k in range(math.ceil(box.bottom / step), math.floor(box.top / step) + 1):
         y = _TOP + (box.top - k * step) * scale
         heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID
         lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_LEFT + width:.2f}" y2="{y:.2f}" style="{heavy}"/>')
-        lines.append(written(_LEFT - 34, y + 4, f"{k * step:g}"[:5]))
+        lines.append(written(_LEFT - 34, y + 4, words.decimal(f"{k * step:g}"[:5])))
     teeth = contour.pair.teeth
     lines.append(written(_LEFT, 22, f"z1 = {teeth[0]}, z2 = {teeth[1]}", size=15))
     lines.append(written(_LEFT + width - 20, _TOP + height + 34, "x1", size=14))

@@ -56,7 +56,7 @@ class ErrorMap(Record):
             lines.append(
                 f'<rect x="{left:.1f}" y="{y:.1f}" width="28" height="22" style="fill:{_shade(value, low, high)}"/>'
             )
-            lines.append(written(left + 36, y + 15, f"{value:.4g} {words.text(self.unit)}"))
+            lines.append(written(left + 36, y + 15, words.decimal(f"{value:.4g} {words.text(self.unit)}")))
         y = top + 22 * 9 + 24
         for name, colour in zip(self.elbows, _COLOURS, strict=True):
             if self.reached:
@@ -65,9 +65,10 @@ class ErrorMap(Record):
                 lines.append(written(left + 36, y, words.say(name)))
                 y += 22
         if self.reached:
-            lines.append(written(left, y, f"{self.magnified:g} : 1"))
+            lines.append(written(left, y, words.decimal(f"{self.magnified:g} : 1")))
             y += 22
-        lines.append(written(left, y, f"r = {self.radii[0]:g} … {self.radii[-1]:g} {words.text('mm')}"))
+        reach = f"r = {self.radii[0]:g} … {self.radii[-1]:g} {words.text('mm')}"
+        lines.append(written(left, y, words.decimal(reach)))
         return lines
 
 

@@ -62,7 +62,7 @@ def html_table(table: Table, words: Words) -> str:
     head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
     rows = ["".join(f"<td>{words.decimal(cell)}</td>" for cell in row) for row in _rows(table, words)]
     body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
-    return f"<h2>{html.escape(words.say(table.title))}</h2>\n<table>\n{body}\n</table>"
+    return f"<h2>{html.escape(words.phrase(words.say(table.title)))}</h2>\n<table>\n{body}\n</table>"
 
 
 def table_data(table: Table) -> list[dict[str, Any]]:

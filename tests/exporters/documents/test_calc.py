@@ -388,7 +388,12 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
         assert len(re.findall(rf"<{tag}[ >]", made["html"])) == made["html"].count(f"</{tag}>"), tag
     for note in map(words(language).say, sheet.notes):
         assert note in made["text"]
-        assert f"<li>{html.escape(note)}</li>" in made["html"]
+        assert f"<li>{html.escape(words(language).phrase(note))}</li>" in made["html"]
+    if language == "uk":
+        # in words and pictures too, but for names of equations, figures, tables and sections; the last cell is a source
+        shown = re.sub(r"<td>[^<]*(<span|</td></tr>)|<style>.*?</style>|<[^>]*>", " ", made["html"], flags=re.DOTALL)
+        named = r"\(\d\.\d+\)|(рис|табл|пп)\. \d\.\d+(–\d\.\d+)?|таблиця 1\.\d|M20×1\.5"
+        assert not re.search(r".{0,30}\d\.\d", re.sub(named, "", html.unescape(shown)))
     data = json.loads(made["json"])
     assert len(data["steps"]) == len(sheet.steps())
     for step in data["steps"]:

@@ -30,7 +30,7 @@ from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RoundedRoot
 from parts.base.refusal import SceneError
-from parts.base.texts import words
+from parts.base.texts import MINUS, words
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of
 from parts.mates.pages import internal_shift_choice, shift_choice
@@ -175,7 +175,11 @@ def test_the_drawing_has_the_lines_of_the_contour(contour: Any, tmp_path: Path) 
     assert "інтерференція" in texts
     box, step = contour.box, grid_step(contour.box)
     along = [e.dxf.text for e in space.query("TEXT") if abs(e.dxf.insert.y - (box.bottom * SCALE - 8)) < 1e-6]
-    assert along == [f"{k * step:.3g}" for k in range(-1000, 1000) if box.left <= k * step <= box.right]
+    assert along == [
+        f"{k * step:.3g}".replace(".", ",").replace("-", MINUS)
+        for k in range(-1000, 1000)
+        if box.left <= k * step <= box.right
+    ]
     # the same bytes every time
     first = file.read_bytes()
     write_contour_dxf(file, contour, marks, words("uk"))
@@ -216,7 +220,7 @@ def test_the_drawing_has_its_axes_numbers_and_key_where_they_belong(contour: Any
     # each number stands below or beside its place, within half a row
     numbers = [e for e in space.query('TEXT[layer=="AXES"]') if not e.dxf.text.startswith("x")]
     for text in numbers:
-        x, y, value = text.dxf.insert.x, text.dxf.insert.y, float(text.dxf.text)
+        x, y, value = text.dxf.insert.x, text.dxf.insert.y, float(text.dxf.text.replace(MINUS, "-"))
         below = edges[1] - 15 < y < edges[1] and abs(x - SCALE * value) < 10
         beside = edges[0] - 25 < x < edges[0] and abs(y + text.dxf.height / 2 - SCALE * value) < 3
         assert below != beside, (x, y, value)
@@ -240,7 +244,7 @@ def test_the_drawing_has_its_axes_numbers_and_key_where_they_belong(contour: Any
         assert (ring.center.x, ring.center.y, ring.radius) == pytest.approx((SCALE * x1, SCALE * x2, 2))
         beside = [e.dxf.insert for e in space.query("TEXT") if e.dxf.text == str(number) and e.dxf.layer == "CHOICES"]
         assert any(2 < abs(complex(*at.vec2) - SCALE * complex(x1, x2)) < 6 and at.x > ring.center.x for at in beside)
-        assert f"{told}: {x1:.4f} / {x2:.4f}" in [e.dxf.text for e in rows]
+        assert f"{told}: {x1:.4f} / {x2:.4f}".replace("-", MINUS) in [e.dxf.text for e in rows]
     low, high = drawing.header["$EXTMIN"], drawing.header["$EXTMAX"]
     for text in space.query("TEXT"):
         assert low[0] <= text.dxf.insert.x < high[0]
@@ -257,8 +261,8 @@ def test_numbers_are_all_those_that_lie_along_the_box(contour: Any, box: Box, tm
     write_contour_dxf(tmp_path / "b.dxf", replace(contour, box=box, region=()), {}, words("en"))
     space = ezdxf.readfile(tmp_path / "b.dxf").modelspace()
     numbers = [e for e in space.query('TEXT[layer=="AXES"]') if not e.dxf.text.startswith("x")]
-    below = sorted(float(e.dxf.text) for e in numbers if e.dxf.insert.y < box.bottom * SCALE - 5)
-    beside = sorted(float(e.dxf.text) for e in numbers if e.dxf.insert.y >= box.bottom * SCALE - 3)
+    below = sorted(float(e.dxf.text.replace(MINUS, "-")) for e in numbers if e.dxf.insert.y < box.bottom * SCALE - 5)
+    beside = sorted(float(e.dxf.text.replace(MINUS, "-")) for e in numbers if e.dxf.insert.y >= box.bottom * SCALE - 3)
     places = [k * grid_step(box) for k in range(-100, 101)]
     assert below == pytest.approx([x for x in places if box.left <= x <= box.right], abs=1e-9)
     assert beside == pytest.approx([y for y in places if box.bottom <= y <= box.top], abs=1e-9)

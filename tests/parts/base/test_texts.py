@@ -56,6 +56,15 @@ def test_only_points_of_numbers_become_commas() -> None:
     assert words("en").decimal("50.5") == "50.5"
 
 
+def test_numbers_in_words_have_the_mark_of_the_language_and_names_do_not() -> None:
+    said = "printed before (3.4) and in fig. 3.9: 14.13 for 1.75, 3.5, as -0.5; least_angle_deg = 0.145, x_0.3"
+    told = said.replace("14.13 for 1.75, 3.5, as -0.5", "14,13 for 1,75; 3,5, as \N{MINUS SIGN}0,5").replace(
+        "x_0.3", "x_0,3"
+    )
+    assert words("uk").phrase(said) == told
+    assert words("en").phrase(said) == said.replace("-0.5", "\N{MINUS SIGN}0.5")
+
+
 def test_printed_numbers_below_zero_have_a_true_minus() -> None:
     assert words("uk").decimal("x = -0.5 (-3)") == "x = \N{MINUS SIGN}0,5 (\N{MINUS SIGN}3)"
     for name in ("08B-1", "9-36", "1e-05", "D-8x32", "5 - 3", "2026-11-29"):

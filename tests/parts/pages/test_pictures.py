@@ -19,7 +19,7 @@ from geometry.gears.shifts.internal_shifts import InternalShiftPair
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RoundedRoot
-from parts.base.texts import words
+from parts.base.texts import MINUS, words
 from parts.pages.contour_picture import ContourPicture, clipped, contour_text, grid_step, region_text, tool_texts
 from parts.pages.error_map import ErrorMap
 
@@ -39,7 +39,7 @@ class Sheet:
         return self.root.findall(SVG + tag)
 
     def texts(self) -> dict[str, tuple[float, float]]:
-        return {t.text or "": (num(t, "x"), num(t, "y")) for t in self.all("text")}
+        return {(t.text or "").replace(MINUS, "-"): (num(t, "x"), num(t, "y")) for t in self.all("text")}
 
     def outside(self) -> list[str]:
         """Words and lines that leave the sheet; a letter is at most as wide as high, most are half of it."""
@@ -85,7 +85,7 @@ def test_a_contour_is_read_off_by_its_grid() -> None:
     """Lines in fifths of a module, each with its number; curves, region and marks stand where these say."""
     sheet = Sheet(PICTURE.svg(EN))
     # numbers of both axes are alike: those of one axis are read at its own lines
-    texts = [(t.text or "", num(t, "x"), num(t, "y")) for t in sheet.all("text")]
+    texts = [((t.text or "").replace(MINUS, "-"), num(t, "x"), num(t, "y")) for t in sheet.all("text")]
     lines = [t for t in sheet.all("line") if "#dde2e6" in t.get("style", "") or "#808890" in t.get("style", "")]
     upright, level = {}, {}
     for line in lines:
@@ -164,7 +164,7 @@ def test_the_key_of_a_contour_has_each_kind_of_line_once_in_its_stroke() -> None
     assert num(box, "y") < region[1] < num(box, "y") + num(box, "height") + 2
     below = {t: y for t, _, y in texts}
     assert below["region: ε ≥ 1.1, S_a ≥ 0.3 m"] < below["α = 20°, h_a* = 1, c* = 0.25, ρ_f* = 0.38"]
-    for told, at in (("1: chosen: 0.5000 / 0.5000", 1), ("3: edge: 1.5000 / -0.3000", 2)):
+    for told, at in (("1: chosen: 0.5000 / 0.5000", 1), (f"3: edge: 1.5000 / {MINUS}0.3000", 2)):
         (circle,) = [t for t in sheet.all("circle") if not style(t, "stroke") and abs(num(t, "cy") - below[told]) < 8]
         assert num(circle, "cx") < next(x for t, x, _ in texts if t == told)
         assert at
@@ -270,11 +270,12 @@ def test_tools_and_wishes_of_rings_are_told() -> None:
     rack = "α = 20°, h_a* = 1, c* = 0.25, ρ_f* = 0.38"
     assert tool_texts(PAIR, EN) == [rack]
     assert tool_texts(ring, EN) == [
-        rack, "r_a2 = r_2 - (1 - x_2 - k_2) m, k_2 = 0.25 - 0.125 x_2",
+        rack, "r_a2 = r_2 - (1 - x_2 - k_2) m, k_2 = 0.25 - 0.125 x_2".replace("-", MINUS),
         "cutter of the ring: z_0 = 20, x_0 = 0.1, h_a0* = 1.25, ρ_0* = 0.2"]  # fmt: skip
     rooted = InternalShiftPair(20, 60, RACK, RoundedRoot(1.25, 0.3), plain_tip=True, pinion_cutter=cutter)
     assert tool_texts(rooted, EN)[1:] == [
-        "r_a2 = r_2 - (1 - x_2 - k_2) m, k_2 = 0", "rounded root of the ring: h_f2* = 1.25, ρ = 0.3 m",
+        "r_a2 = r_2 - (1 - x_2 - k_2) m, k_2 = 0".replace("-", MINUS),
+        "rounded root of the ring: h_f2* = 1.25, ρ = 0.3 m",
         "cutter of the pinion: z_0 = 20, x_0 = 0.1, h_a0* = 1.25, ρ_0* = 0.2"]  # fmt: skip
     full = InternalShiftPair(20, 60, RACK, RoundedRoot(1.25, None))
     assert "full" in tool_texts(full, EN)[2]
