@@ -17,7 +17,6 @@ from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales, thinned
 from parts.drawing.canvas import SMALL_TEXT, SQUARE, TEXT_HEIGHT, Box, Canvas, standard_scale, text_width
 from parts.drawing.choice import Asked
-from parts.pages.page import unit_text
 from parts.texts.sheets import sheet_words
 
 LAYERS = {2: "DIAGRAM_BEND", 1: "DIAGRAM_RATE", 0: "DIAGRAM_LIFT"}
@@ -119,10 +118,8 @@ def _axes(
     top = zero + 1j * (high + 6.0)
     canvas.line("AXIS", zero + 1j * min(low - 2.0, 0.0), top)
     canvas.arrow("AXIS", top, 1j)
-    unit = ("deg" if picture.swings else "mm") + ("", "/rad", "/rad2")[order]
-    name = ("ψ" if picture.swings else "S") + "'" * order
     # on the left, where no line of a phase runs
-    text = f"{name}, {unit_text(unit, words(picture.language))}"
+    text = picture.axis_name(order)
     canvas.write(text, top - complex(2.5 + text_width(text), 2.0))
     canvas.write("φ", right + complex(-3.0, 3.0))
     scale = scales.of(order)

@@ -97,8 +97,8 @@ class Joint(Record):
     def name(self, labels: Labeller, paper: Paper, window: Box, *, by_hand: bool) -> None:
         """Names of axes, positions, centres and sizes; by hand of the axes alone."""
         to, say = paper.point, self.picture.say
-        labels.name("S", to(1j * window.high), prefer=1 - 1j)
-        labels.name("S" + "'" * self.order, to(complex(window.right, 0)), prefer=-1 + 1j)
+        labels.name(self.picture.axis_name(0), to(1j * window.high), prefer=1 - 1j)
+        labels.name(self.picture.axis_name(self.order), to(complex(window.right, 0)), prefer=-1 + 1j)
         if by_hand:
             name_asked(labels, self.picture, to(complex(window.right, 0)))
             return

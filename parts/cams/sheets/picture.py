@@ -12,7 +12,9 @@ from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import GraphicalMotion, graphical_hindrance, graphical_motion
 from geometry.cams.plane.synthesis import greatest_pressure_angle
+from parts.base.texts import words
 from parts.drawing.canvas import decimal, standard_scale
+from parts.pages.page import unit_text
 
 # parts of a turn, in intervals of a phase, where a table of points gives no phases
 TURN_SHARE = 3
@@ -50,6 +52,12 @@ class CamPicture(Record):
     def unit(self) -> float:
         """What the motion's numbers are multiplied with to be shown: mm, or degrees for rad."""
         return 180 / math.pi if self.swings else 1.0
+
+    def axis_name(self, order: int) -> str:
+        """The motion or one of its derivatives over the cam angle as an axis tells it, with its unit."""
+        name = ("ψ" if self.swings else "S") + "'" * order
+        unit = ("deg" if self.swings else "mm") + ("", "/rad", "/rad2")[order]
+        return f"{name}, {unit_text(unit, words(self.language))}"
 
     def say(self, value: float, digits: int = 2) -> str:
         """A number in the sheet's language."""

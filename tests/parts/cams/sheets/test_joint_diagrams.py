@@ -239,10 +239,10 @@ def test_an_angle_is_drawn_between_the_tangents_and_the_axis_of_abscissae() -> N
 @pytest.mark.parametrize(
     ("follower", "gamma", "told"),
     [
-        (ROLLER.format(offset=0.0), 60.0, {"S'", "γmin = 60°", "O1"}),
-        (ROLLER.format(offset=6.0), 60.0, {"S'", "γmin = 60°", "O'1", "E = 6.00"}),
-        (ROLLER.format(offset=0.0), None, {"S'", "O1"}),
-        (FLAT, None, {"S''", "γmin = 45°", "O1", "Rmin = 40.00"}),
+        (ROLLER.format(offset=0.0), 60.0, {"S', mm/rad", "γmin = 60°", "O1"}),
+        (ROLLER.format(offset=6.0), 60.0, {"S', mm/rad", "γmin = 60°", "O'1", "E = 6.00"}),
+        (ROLLER.format(offset=0.0), None, {"S', mm/rad", "O1"}),
+        (FLAT, None, {"S'', mm/rad²", "γmin = 45°", "O1", "Rmin = 40.00"}),
     ],
 )
 def test_words_of_a_joint_diagram_stand_beside_what_they_name(
@@ -260,14 +260,14 @@ def test_words_of_a_joint_diagram_stand_beside_what_they_name(
     alone = {"O"} if (joint.centre != joint.least and gamma) or made.cam.is_flat else set()
     numbers = {t.text for t in drawn.canvas.texts if t.text[0].isdigit()}
     words = {t.text for t in drawn.canvas.texts} - numbers
-    assert words == told | own | {"S", "S0", radius} | alone
+    assert words == told | own | {"S, mm", "S0", radius} | alone
     window = drawn.window
     places = {
-        "S": 1j * window.high,
+        "S, mm": 1j * window.high,
         "S0": 0j,
         least: joint.least,
         radius: joint.least / 2,
-        "S" + "'" * joint.order: complex(window.right),
+        "S'', mm/rad²" if made.cam.is_flat else "S', mm/rad": complex(window.right),
         "O": joint.centre,
         "E = 6.00": complex(joint.offset, window.high),
         "Rmin = 40.00": (joint.centre + joint.least) / 2,
@@ -434,7 +434,7 @@ def test_by_hand_squared_paper_lies_about_the_axes(follower: str) -> None:
 def test_by_hand_the_axes_stand_alone_with_what_is_given() -> None:
     drawn = Drawn(picture(ROLLER.format(offset=6.0)), by_hand=True)
     assert {s.layer for s in drawn.strokes} == {"AXIS", "ORDINATE"}
-    assert {t.text for t in drawn.canvas.texts} == {"S", "S'", "γmin = 60°"}
+    assert {t.text for t in drawn.canvas.texts} == {"S, mm", "S', mm/rad", "γmin = 60°"}
     drawn = Drawn(picture(ARM.format(sense="with"), 50.0), by_hand=True)
     assert np.array(drawn.lines("AXIS")) == pytest.approx(np.array([(0j, 90)]), rel=1e-9)
     assert drawn.marks("DIMENSION") == pytest.approx([0j, 90], rel=1e-9)
@@ -442,4 +442,4 @@ def test_by_hand_the_axes_stand_alone_with_what_is_given() -> None:
     assert {t.text for t in drawn.canvas.texts} == {"O", "C", "γmin = 50°"}
     assert {t.answer for t in drawn.canvas.texts if t.text.startswith("γ")} == {False}
     drawn = Drawn(picture(ROLLER.format(offset=0.0), None), by_hand=True)
-    assert {t.text for t in drawn.canvas.texts} == {"S", "S'"}
+    assert {t.text for t in drawn.canvas.texts} == {"S, mm", "S', mm/rad"}
