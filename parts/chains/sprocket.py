@@ -28,7 +28,7 @@ _SIZES = ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse
 _Length = float | None
 
 _CHAIN = Meta(
-    description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2) or "
+    description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2), of motorcycles (428) or of "
     "GOST 13568 (PR-12.7-18.2), or give pitch"
 )
 _ROLLER_DIAMETER = mm("diameter of its rollers, or of bushes without them", above=0, most=1000, example=8.51)

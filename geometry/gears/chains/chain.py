@@ -1,5 +1,5 @@
-"""Roller chains: sizes by designation, of ISO 606 (series A and B; numbers of ANSI B29.1), of bicycles (081 to 085)
-and of GOST 13568-75.
+"""Roller chains: sizes by designation, of ISO 606 (series A and B; numbers of ANSI B29.1), of bicycles (081 to 085), of
+motorcycles (415 to 630) and of GOST 13568.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ _ISO = """
 08A 12.7 7.92 7.85 12.07 14.38 13.9
 08B 12.7 8.51 7.75 11.81 13.92 17.8 31.1 44.5
 081 12.7 7.75 3.30 9.91 0 8.0
+082 12.7 7.75 2.38 9.91 0 0
 083 12.7 7.75 4.88 10.30 0 11.6
 084 12.7 7.75 4.88 11.15 0 15.6
 085 12.7 7.77 6.25 9.91 0 6.7
@@ -44,6 +45,16 @@ _ISO = """
 40B 63.5 39.37 38.10 52.96 72.29 355.0 630.0 950.0
 48A 76.2 47.63 47.35 72.39 87.83 500.0
 48B 76.2 48.26 45.72 63.88 91.21 560.0 1000.0 1500.0
+"""
+# of motorcycles (ISO 10190), whose plates and loads are their makers'
+_MOTORCYCLES = """
+415 12.7 7.77 4.68 0 0 0
+420 12.7 7.77 6.25 0 0 0
+428 12.7 8.51 7.85 0 0 0
+520 15.875 10.16 6.25 0 0 0
+525 15.875 10.16 7.85 0 0 0
+530 15.875 10.16 9.40 0 0 0
+630 19.05 11.91 9.40 0 0 0
 """
 # the same, with GOST's letters in Latin; transverse pitches of the chains that have 2 and 3 strands, whose names tell
 # the load of all
@@ -71,6 +82,7 @@ _WIDER = {"2PR-19.05-72": 25.50, "3PR-19.05-108": 25.50}
 _ANSI = {"25": "04C", "35": "06C", "41": "085", "40": "08A", "50": "10A", "60": "12A", "80": "16A", "100": "20A",
          "120": "24A", "140": "28A", "160": "32A", "180": "36A", "200": "40A", "240": "48A"}  # fmt: skip
 
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
 # a cross as it is typed, Cyrillic or the sign of multiplication; inches and spaces beside it
 _CROSS = str.maketrans("\u0425\u00d7", "XX", ' "\u2033')
 
@@ -101,25 +113,25 @@ class Chain(Record):
 def chains() -> dict[str, Chain]:
     """Every chain of one strand by its designation; ISO 606 tells the strands after a dash, GOST before the name."""
     found = {}
-    for line in (_ISO + _GOST).split("\n"):
+    for line in (_ISO + _MOTORCYCLES + _GOST).split("\n"):
         if line:
             name, *sizes = line.split()
             pitch, roller, inner, height, apart, load, *several = map(float, sizes)
-            thin = name in ("081", "083", "084", "085")
+            thin = name in ("081", "082", "083", "084", "085")
             loads = (load, *(several or (2 * load, 3 * load)))
             found[name] = Chain(pitch, roller, inner, height, apart, loads, thin=thin)
     return found
 
 
 def chain_of(designation: str) -> Chain | None:
-    """The chain of a designation: 08B, 08B-1, 16A-3, PR-12.7-18.2, 2PR-25.4-114, ANSI 40-2; None: there is none.
+    """The chain of a designation: 08B, 08B-1, 16A-3, PR-12.7-18.2, 2PR-25.4-114, ANSI 40-2, RS40; None: there is none.
 
     Those of GOST may have Cyrillic letters, and commas in their numbers.
     """
     table, name = chains(), _plain(designation)
     if name in table:
         return table[name]
-    if ansi := re.fullmatch(r"(?:ANSI|NO\.?|#)?\s*(\d+)((?:-[123])?)", name):
+    if ansi := re.fullmatch(r"(?:ANSI|NO\.?|#|RS)?\s*(\d+)((?:-[123])?)", name):
         name = f"{_ANSI.get(ansi[1], ansi[1])}{ansi[2] or '-1'}"
     if (iso := re.fullmatch(r"(\w+)-([123])", name)) and iso[1] in table:
         return _stranded(table[iso[1]], int(iso[2]))
@@ -138,18 +150,23 @@ def _plain(designation: str) -> str:
 
 
 def like_chain(designation: str) -> str | None:
-    """The designation in the table that is most like another one; None: none is."""
-    if (one := _plain(designation).partition("-")[0]) in chains():
+    """The designation in the table that is most like another one, of the pitch that its number tells; None: none is."""
+    name = _plain(designation)
+    if (one := name.partition("-")[0]) in chains():
         return one
-    if inches := re.fullmatch(r"(\d+(?:/[1-9]\d*)?)X(\d+/[1-9]\d*)", _plain(designation).translate(_CROSS)):
+    if inches := re.fullmatch(r"(\d+(?:/[1-9]\d*)?)X(\d+/[1-9]\d*)", name.translate(_CROSS)):
         # as bicycles and motorcycles name them, 1/2x1/8: pitch and width, of series B and 081 to 085
         pitch, width = (25.4 * float(Fraction(side)) for side in inches.groups())
-        same = [(n, c) for n, c in chains().items() if n[-1] != "A" and abs(c.pitch - pitch) < 1e-6]
+        same = [(n, c) for n, c in chains().items() if n[-1] != "A" and c.plate_height and abs(c.pitch - pitch) < 1e-6]
         if same:
             return min(same, key=lambda one: abs(one[1].inner_width - width))[0]
-    names = [*chains(), *(f"{name}-{k}" for name in chains() if not name.startswith("PR") for k in (1, 2, 3))]
-    names = [name for name in names if chain_of(name) is not None]
-    found = get_close_matches(_plain(designation), names, 1, 0.5)
+    numbers = {float(number) for number in _NUMBER.findall(name)}
+    if not re.search(r"\d[ABC]|PR", name) and (ansi := next((n for n in _ANSI if float(n) in numbers), None)):
+        # 40H and C40 are no 40A, of two inches and a half
+        return f"ANSI {ansi}"
+    names = [*chains(), *(f"{n}-{k}" for n in chains() if not n.startswith("PR") for k in (1, 2, 3))]
+    names = [n for n in names if numbers & {*map(float, _NUMBER.findall(n)[:1])} and chain_of(n) is not None]
+    found = get_close_matches(name, names, 1, 0.5)
     return found[0] if found else None
 
 

@@ -18,7 +18,7 @@ from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
-from geometry.gears.chains.chain import Chain, chain_of, chains
+from geometry.gears.chains.chain import Chain, chain_of, chains, like_chain
 from geometry.gears.chains.sprocket import (
     AnsiForm,
     GostForm,
@@ -76,6 +76,31 @@ def test_names_of_gost_tell_the_load_of_all_strands(designation: str, apart: flo
     """GOST 13568-97, and its chains of 3/4 inch of 1975, whose strands stood farther apart."""
     chain = named(designation)
     assert (chain.transverse_pitch, chain.breaking_load) == pytest.approx((apart, load))
+
+
+@pytest.mark.parametrize("row", PRINTED["motorcycles"]["rows"], ids=lambda row: row[0])
+def test_chains_of_motorcycles(row: list[float]) -> None:
+    chain = named(str(row[0]))
+    assert (chain.pitch, chain.roller_diameter) == (row[1], row[2])
+    # ISO has the least width, which is that of its other chains of as many eighths of an inch
+    assert 0.05 < row[3] - chain.inner_width < 0.14
+
+
+@pytest.mark.parametrize(
+    ("typed", "like"),
+    [("8B-1", "08B-1"), ("DIN 8187 08B-1", "08B-1"), ("25H", "ANSI 25"), ("60H-2", "ANSI 60"), ("428H", "428"),
+     ("56B", None), ("208A", None), ("C2040", None), ("219", None), ("1/2", None), ("1/2x3/32", "082"),
+     ("2ПР-19,05", "PR-19.05-31.8")],
+)  # fmt: skip
+def test_a_chain_of_another_pitch_is_not_offered(typed: str, like: str | None) -> None:
+    """As it was: 28A for 208A, 32B-1 for 219, 12B for 1/2; and 20B, of 31.75 mm, for the motorcycle's 520."""
+    assert chain_of(typed) is None
+    assert like_chain(typed) == like
+
+
+def test_numbers_of_japan_are_those_of_ansi() -> None:
+    assert named("RS40") == named("ANSI 40")
+    assert named("RS60-2") == named("60-2")
 
 
 @pytest.mark.parametrize(("table", "chain"), [("plate_wheels_081", "081-1"), ("duplex_32B", "32B-2")])
