@@ -153,6 +153,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         shade = plan.parts[instance.part].colour or fill(index)
         style = f"fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         body.append(f'<path d="{data}" style="{style}"/>')
+        if lines_on := _lines_on(plan.parts[instance.part], instance, place, corner):
+            body.append(f'<path d="{lines_on}" style="fill:none;stroke:#202830;stroke-width:{reach / 600:.4g}"/>')
         solid = _solid_pins(plan.parts[instance.part], own) if instance.axis == UPWARDS else []
         pins = " ".join(path_data(_placed(c, instance, place), corner) for c in solid)
         if pins:
@@ -273,6 +275,13 @@ def _sampled(profile: Profile, tolerance: float) -> Approximation:
     plane = np.concatenate(points)
     contour = Contour(plane, np.zeros(len(plane)), profile.count, profile.clockwise)
     return Approximation(contour, tolerance, "sampled", tolerance)
+
+
+def _lines_on(part: Part, instance: Instance, place: complex, corner: complex) -> str:
+    """What is not cut through an upright part, such as the locking disc on its crank plate, as data of a path."""
+    strokes = part.section(0.0).region.strokes if instance.axis == UPWARDS else ()
+    turned = (np.array(stroke) * cmath.exp(1j * instance.rotation) + place for stroke in strokes)
+    return " ".join(stroke_data(points.round(DRAWN_DECIMALS), corner) for points in turned)
 
 
 def _solid_pins(part: Part, outlines: Outlines) -> list[Contour]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from itertools import pairwise
@@ -234,6 +235,26 @@ def test_ways_and_lengths_of_a_board_are_those_of_its_file(built: Path) -> None:
     assert measured["engraved_length"] == pytest.approx(engraved, rel=1e-9)
     assert measured["cut_length"] == pytest.approx(cut, rel=1e-9)
     assert measured["way_between"] == pytest.approx(way, rel=1e-9)
+
+
+def test_the_locking_disc_of_a_driver_of_one_piece_is_seen_on_its_plate(tmp_path: Path) -> None:
+    """Its widest and its hollow reach as far from the axis as the report says; the hollow is turned upwards."""
+    (tmp_path / "s.toml").write_text(
+        '[parts.cross]\nkind = "geneva_wheel"\nnumber_of_slots = 6\ncentre_distance = 60.0\n'
+        '[parts.driver]\nkind = "geneva_driver"\nof = "cross"\n'
+        '[[mates]]\nkind = "geneva_pair"\nfirst = "driver"\nsecond = "cross"\n'
+        '[instances.driver]\nrotation_deg = 90.0\n[instances.cross]\n'
+        '[[exports]]\nformat = "stl"\n', encoding="utf-8")  # fmt: skip
+    assert run("build", tmp_path / "s.toml", "--out", tmp_path, "-q", "--no-verify") == 0
+    root, _, _ = opened(tmp_path / "s" / "s.preview.svg")
+    plate, disc, *_ = root.iter(f"{SVG}path")
+    (points,) = rings(disc)
+    left, top, right, low = shape(plate).bounds
+    away = points - complex(left + right, top + low) / 2
+    sizes = json.loads((tmp_path / "s" / "report.json").read_text(encoding="utf-8"))["parts"]["driver"]
+    assert np.abs(away).max() == pytest.approx(sizes["locking_diameter"] / 2, abs=2e-3)
+    nearest = away[np.abs(away).argmin()]
+    assert -nearest.imag == pytest.approx(sizes["relief_apex"], abs=2e-3)
 
 
 @pytest.mark.parametrize(("corner", "seen"), [
