@@ -190,8 +190,8 @@ class Mating(Joined, kw_only=True):
         """Of the line of centres, rad, where the second's frame stands so against the first."""
         return cmath.phase(offset)
 
-    def rollers(self, first: Pose, direction: float) -> tuple[Complex, float] | None:
-        """Centres of a chain's rollers in order and their radius, mm, where the first stands so; None: it has none."""
+    def rollers(self, first: Pose, second: Pose) -> tuple[Complex, float] | None:
+        """Centres of a chain's rollers in order and their radius, mm, where both stand so; None: it has none."""
         return None
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:

@@ -61,8 +61,9 @@ class BeltMating(Wrapped):
         pulley = self.mesh.pulleys[1]
         return self.turned_off(first, second, pulley.pitch_angle, pulley.pitch_radius)
 
-    def rollers(self, first: Pose, direction: float) -> tuple[Complex, float]:
+    def rollers(self, first: Pose, second: Pose) -> tuple[Complex, float]:
         """Places of the belt's teeth on its pitch line."""
+        direction = cmath.phase(second[0] - first[0])
         phase = self._groove(first[1], direction)
         places = self.mesh.drive.teeth(phase, self.mesh.pitch, self.mesh.belt_teeth)
         return first[0] + places * cmath.rect(1.0, direction), _DRAWN * self.mesh.pitch

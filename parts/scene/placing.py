@@ -72,8 +72,11 @@ class PlacedMate(Record):
 
     def rollers(self, turned: float = 0.0) -> tuple[Complex, float] | None:
         """The rollers of a chain that runs upright, its first ``turned`` on, rad, and their radius, mm; else None."""
-        pose = self.first.centre, self.first.rotation + turned
-        return self.mating.rollers(pose, self.direction) if self.first.axis == UPWARDS else None
+        if self.first.axis != UPWARDS:
+            return None
+        one, two = self.mating.teeth
+        poses = [(i.centre, i.rotation + turn) for i, turn in ((self.first, turned), (self.second, turned * one / two))]
+        return self.mating.rollers(poses[0], poses[1])
 
 
 class Closeness(Record):

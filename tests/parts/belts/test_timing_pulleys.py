@@ -162,7 +162,7 @@ def test_teeth_of_a_placed_belt_stand_in_grooves_of_both(turn: float, direction:
     (placing, _) = placed(mate, instances={"a": {"rotation_deg": turn}, "b": {}})
     (joined,) = placing.mates
     poses = [(complex(*i.at[:2]), i.rotation) for i in (joined.first, joined.second)]
-    places, _ = joined.mating.rollers(poses[0], math.radians(direction))
+    places, _ = joined.mating.rollers(*poses)
     for (centre, rotation), z in zip(poses, (20, 60), strict=True):
         seated = [p - centre for p in places if abs(abs(p - centre) - z / math.pi) < 1e-9]
         assert len(seated) > 0.35 * z

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import numpy as np
 import pytest
 
 from exporters.production.check import scene_checks
@@ -58,6 +59,29 @@ def test_seats_of_a_second_that_stands_already_must_take_the_rollers(turn: float
         instances = {"a": {"rotation_deg": turn}, "b": {"at": at, "rotation_deg": math.degrees(other.rotation + off)}}
         (mate,) = placed({"number_of_links": 80}, instances=instances)[1]["mates"]
         assert all(condition["met"] for condition in mate["conditions"]) == met
+
+
+@pytest.mark.parametrize(("less", "turn"), [(0.0, 0.0), (1.0, 0.0), (1.0, 0.7), (1.0, -0.7)])
+def test_rollers_of_pictures_sit_in_the_seats_of_both_as_they_stand(less: float, turn: float) -> None:
+    """Of a second turned within its play (0.75 degrees) too, and while both turn by the mean ratio, as drives do."""
+    distance = 330.63882 - less
+    one, two = placed({"centre_distance": distance})[0].instances
+    instances = {"a": {}, "b": {"at": [*two.at], "rotation_deg": math.degrees(two.rotation) + turn}}
+    placing, checks = placed({"centre_distance": distance}, instances=instances)
+    (mate,) = placing.mates
+    assert checks["mates"][0]["conditions"][1]["met"]
+    radii = [12.7 / 2 / math.sin(math.pi / z) for z in (17, 38)]
+    for turned in (0.0, 0.05, 0.17, 0.3):
+        found = mate.rollers(turned)
+        assert found is not None
+        # in the middle of a strand that is taut links are longer by what the ratio is off its mean
+        assert abs(found[0] - np.roll(found[0], 1)) == pytest.approx(12.7, abs=2e-3)
+        stands = (one.centre, mate.first.rotation + turned), (two.centre, mate.second.rotation + turned * 17 / 38)
+        for (centre, rotation), radius, z in zip(stands, radii, (17, 38), strict=True):
+            seated = found[0][np.abs(np.abs(found[0] - centre) - radius) < 1e-6] - centre
+            assert len(seated) >= z // 2 - 1
+            off = np.angle(seated * np.exp(-1j * rotation)) * z / (2 * math.pi) - 0.5
+            assert np.abs(off - np.round(off)).max() * 2 * math.pi * radius / z < 1e-6
 
 
 @pytest.mark.parametrize(
