@@ -143,6 +143,9 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
             quoted = format_value(format_value(value))
             code = "number_not_quoted" if allowed is None else "number_not_quoted_of"
             return SceneError(source, where, value, code, None, last=keys[-1], quoted=quoted, allowed=allowed)
+        # a number in place of a table that has a plain key beside it: bore and bore_diameter
+        if type(value) in (int, float) and has_key(_owner(kind, keys[:-1], table), f"{keys[-1]}_diameter"):
+            nearest = Nearest(f"{keys[-1]}_diameter", "meant")
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)

@@ -56,6 +56,12 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "unknown key beside the one that is most like it": (
         {"kind": '"bevel_gear"', "mate_teeth": "40"}, {}, "parts.gear.mate_teeth", "40",
         "did you mean mate_number_of_teeth"),
+    "height of a wheel": ({"height": "8"}, {}, "parts.gear.height", "8", "did you mean face_width"),
+    "height of a rack": ({"kind": '"rack"', "height": "8"}, {}, "parts.gear.height", "8", "did you mean body_height"),
+    "outer diameter of a wheel": (
+        {"outer_diameter": "50"}, {}, "parts.gear.outer_diameter", "50", "did you mean tip_diameter"),
+    "shaft of a wheel": ({"shaft_diameter": "6"}, {}, "parts.gear.shaft_diameter", "6", "did you mean bore_diameter"),
+    "bore as a number": ({"bore": "6"}, {}, "parts.gear.bore", "6", "did you mean bore_diameter"),
     "unknown export key": ({}, {"tolerence": "1"}, "exports[1].tolerence", "1", "did you mean tolerance"),
     "unknown key in a table": ({"tip_relief": "{ dept = 1 }"}, {}, "tip_relief.dept", "1", "depth_coefficient"),
     "text for a number": ({"module": '"two"'}, {}, "parts.gear.module", '"two"', "a number"),
