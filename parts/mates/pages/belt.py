@@ -7,13 +7,14 @@ from typing import Annotated
 
 from msgspec import Meta
 
+from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.belts.drive import BeltMesh, textbook_distance, textbook_length
-from geometry.gears.belts.pulley import checked_pulley
+from geometry.gears.belts.pulley import Pulley, checked_pulley
 from parts.base.texts import N_
 from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
 from parts.belts.steps import belt_steps, circle_steps
-from parts.keys.base import mm, size
+from parts.keys.base import MOST_LENGTH, mm, size
 from parts.mates.belt import BeltDriveSpec, BeltTeeth, belt_mesh
 from parts.mates.pages.drive_keys import drive_of_kind
 from parts.pages.force_steps import both_speeds, driving_torque
@@ -27,12 +28,19 @@ _TORQUE = "torque on the driving pulley: adds the pull of the belt"
 _POWER = "power that the driving pulley takes in, by its speed: in place of its torque"
 
 _MATE_NUMBER_OF_TEETH = Meta(ge=6, le=500, description="number of teeth of the driven pulley", examples=[40])
+_MATE_OUTER_DIAMETER = mm(
+    "outer diameter of the driven pulley; default: that of the belt's pitch line",
+    above=0,
+    most=2 * MOST_LENGTH,
+    example=63.0,
+)
 
 
 class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the driving pulley, the teeth of the other one, the belt's length and what it carries."""
 
     mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
+    mate_outer_diameter: Annotated[float, _MATE_OUTER_DIAMETER] | None = None
     number_of_belt_teeth: BeltTeeth | None = None
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=150.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
@@ -40,14 +48,14 @@ class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=
     power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
 
 
-table_from = drive_of_kind("timing_pulley", BeltDriveSpec, "number_of_belt_teeth", "centre_distance")
+table_from = drive_of_kind("timing_pulley", BeltDriveSpec, "outer_diameter", "number_of_belt_teeth", "centre_distance")
 
 
 @calculation(TOPIC, BeltKeys)
 def sheet(keys: BeltKeys) -> Sheet:
     """The calculation of a timing belt drive."""
     one = TIMING_PULLEY.thing(keys, {})
-    two = checked_pulley(replace(one, number_of_teeth=keys.mate_number_of_teeth, given_outer_diameter=None))
+    two = _driven(keys, one)
     mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance, "")
     page = Sheet(TOPIC, N_("Timing belt drive"))
     page.section("Given")
@@ -70,6 +78,22 @@ def sheet(keys: BeltKeys) -> Sheet:
         page.add("force_on_tooth", force / mesh.in_mesh, "{F_t} / {z_m}")
     page.notes += [finding_message(found) for found in mesh.findings()]
     return page
+
+
+def _driven(keys: BeltKeys, one: Pulley) -> Pulley:
+    """The other pulley, of which no flanges are known.
+
+    Raises
+    ------
+    ParameterError
+        It has no lands between its grooves; names its own key.
+    """
+    teeth, diameter = keys.mate_number_of_teeth, keys.mate_outer_diameter
+    try:
+        return checked_pulley(replace(one, number_of_teeth=teeth, given_outer_diameter=diameter, flanges=None))
+    except ParameterError as refusal:
+        own = refusal.name in ("number_of_teeth", "outer_diameter")
+        raise refusal.renamed(f"mate_{refusal.name}" if own else refusal.name) from refusal
 
 
 def _length(page: Sheet, mesh: BeltMesh, distance: float | None) -> None:

@@ -7,13 +7,14 @@ from typing import Annotated
 
 from msgspec import Meta
 
+from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.chains.drive import ChainMesh, textbook_distance, textbook_links
 from geometry.gears.chains.sprocket import checked_sprocket
 from parts.base.texts import N_
 from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.chains.steps import chain_steps, circle_steps
-from parts.keys.base import mm, size
+from parts.keys.base import MOST_LENGTH, mm, size
 from parts.mates.chain import ChainDriveSpec, chain_mesh
 from parts.mates.pages.drive_keys import drive_of_kind
 from parts.pages.force_steps import both_speeds, driving_torque
@@ -31,12 +32,19 @@ _LOAD, _MOUNTED = 1.15, 0.995
 
 _NUMBER_OF_LINKS = Meta(ge=6, le=10_000, description="links of the chain", examples=[100])
 _MATE_NUMBER_OF_TEETH = Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])
+_MATE_TIP_DIAMETER = mm(
+    "tip diameter of the driven sprocket; default: by its tooth form",
+    above=0,
+    most=2 * MOST_LENGTH,
+    example=160.0,
+)
 
 
 class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the driving sprocket, the teeth of the other one, the chain's length and what it carries."""
 
     mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
+    mate_tip_diameter: Annotated[float, _MATE_TIP_DIAMETER] | None = None
     number_of_links: Annotated[int, _NUMBER_OF_LINKS] | None = None
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=458.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
@@ -44,14 +52,18 @@ class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
     power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
 
 
-table_from = drive_of_kind("sprocket", ChainDriveSpec, "number_of_links", "centre_distance")
+table_from = drive_of_kind("sprocket", ChainDriveSpec, "tip_diameter", "number_of_links", "centre_distance")
 
 
 @calculation(TOPIC, ChainKeys)
 def sheet(keys: ChainKeys) -> Sheet:
     """The calculation of a chain drive."""
     one = SPROCKET.thing(keys, {})
-    two = checked_sprocket(replace(one, number_of_teeth=keys.mate_number_of_teeth, given_tip_diameter=None))
+    teeth, diameter = keys.mate_number_of_teeth, keys.mate_tip_diameter
+    try:
+        two = checked_sprocket(replace(one, number_of_teeth=teeth, given_tip_diameter=diameter))
+    except ParameterError as refusal:
+        raise refusal.renamed(f"mate_{refusal.name}" if refusal.name == "tip_diameter" else refusal.name) from refusal
     mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, "")
     page = Sheet(TOPIC, N_("Chain drive"))
     page.section(N_("Given"))

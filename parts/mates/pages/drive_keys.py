@@ -12,10 +12,10 @@ from parts.pages.inputs import SceneKeys, chosen_part, given
 TableFrom = Callable[[SceneKeys, str, dict[str, Any]], dict[str, Any]]
 
 
-def drive_of_kind(kind: str, mate: type[MateKeys], *lengths: str) -> TableFrom:
+def drive_of_kind(kind: str, mate: type[MateKeys], diameter: str, *lengths: str) -> TableFrom:
     """The keys of the first wheel (of this ``kind``) of a scene's one such mate, or of that which ``part`` names.
 
-    With them go the teeth of the other wheel, and those of the mate's ``lengths`` that are given.
+    With them go the teeth of the other wheel, its own ``diameter``, and those of the mate's ``lengths`` that are given.
     """
 
     def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -26,6 +26,9 @@ def drive_of_kind(kind: str, mate: type[MateKeys], *lengths: str) -> TableFrom:
         found = ends[chosen_part(kind, [*ends], [*ends], source, table)]
         first, second = (given(scene.parts[str(scene.instances[key].part)]) for key in (found.first, found.second))
         asked = {key: value for key in lengths if (value := getattr(found, key)) is not None}
-        return first | asked | {"mate_number_of_teeth": second["number_of_teeth"]} | table
+        teeth = {"mate_number_of_teeth": second["number_of_teeth"]}
+        if diameter in second and not teeth.keys() & table.keys():
+            asked[f"mate_{diameter}"] = second[diameter]
+        return first | asked | teeth | table
 
     return table_from

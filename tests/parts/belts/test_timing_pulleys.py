@@ -22,7 +22,7 @@ from parts.base.refusal import SceneError
 from parts.belts.probe import GrooveProbe
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
-from tests.exporters.making import read_report, run, write_scene
+from tests.exporters.making import read_report, run, table, write_scene
 
 Keys = dict[str, Any]
 PLATE: Keys = {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 20, "bore_diameter": 5.0, "face_width": 7.0}
@@ -171,7 +171,7 @@ def test_teeth_of_a_placed_belt_stand_in_grooves_of_both(turn: float, direction:
 
 
 def test_the_page_of_a_drive_takes_its_pulleys_from_the_scene() -> None:
-    """The scene has 20 and 60 teeth; what is asked besides goes first. An outer diameter is the first one's alone."""
+    """The scene has 20 and 60 teeth; what is asked besides goes first. Each has its own outer diameter."""
 
     def values(*words: str) -> dict[str, Any]:
         found: dict[str, Any] = json.loads(calculate("belt", list(words), "json", "en"))["values"]
@@ -183,10 +183,37 @@ def test_the_page_of_a_drive_takes_its_pulleys_from_the_scene() -> None:
     found = values(*own, "outer_diameter=31.2", "number_of_belt_teeth=100")
     assert found["pulley_outer_diameter"]["first"] == 31.2
     assert found["pulley_outer_diameter"]["second"] == pytest.approx(200 / math.pi - 0.83)
+    found = values(*own, "outer_diameter=31.2", "mate_outer_diameter=62.9", "number_of_belt_teeth=100")
+    assert found["pulley_outer_diameter"] == {"first": 31.2, "second": 62.9}
     taut = found["exact_belt_distance"]
     assert values(*own, "number_of_belt_teeth=100", f"centre_distance={taut!r}")["belt_slack"] == pytest.approx(
         0, abs=1e-9
     )
+
+
+def test_flanges_of_the_first_pulley_are_none_of_the_second(tmp_path: Path) -> None:
+    """As it was: 86 teeth were asked for, that two flanges of 44 mm go round, where 33.6 mm is far for 44 and 12 mm."""
+    large, small = LARGE | {"flanges": {"diameter": 44.0}}, PLATE | {"outer_diameter": 12.1}
+    mate = table("[[mates]]", MATE | {"number_of_belt_teeth": 76})
+    scene = write_scene(tmp_path / "s.toml", {"a": large, "b": small}, [{"format": "dxf"}], mate)
+    (checked,) = placed({"number_of_belt_teeth": 76}, large, small)[1]["mates"]
+    found = json.loads(calculate("belt", [str(scene)], "json", "en"))["values"]
+    assert found["exact_belt_distance"] == pytest.approx(checked["working_centre_distance"])
+    assert found["pulley_outer_diameter"]["second"] == 12.1
+    # of other teeth it has none of its own
+    words = [str(scene), "mate_number_of_teeth=30", "number_of_belt_teeth=90"]
+    found = json.loads(calculate("belt", words, "json", "en"))["values"]
+    assert found["pulley_outer_diameter"]["second"] == pytest.approx(60 / math.pi - 0.508)
+
+
+@pytest.mark.parametrize(
+    ("words", "key"), [("7", "mate_number_of_teeth"), ("20 mate_outer_diameter=5", "mate_outer_diameter")]
+)
+def test_a_refusal_of_the_second_pulley_names_its_key(words: str, key: str) -> None:
+    words = f"belt=T2.5 number_of_teeth=20 number_of_belt_teeth=100 mate_number_of_teeth={words}"
+    with pytest.raises(SceneError) as refused:
+        calculate("belt", words.split(), "json", "en")
+    assert refused.value.key == f"belt.{key}"
 
 
 @pytest.mark.parametrize("off", [0.0, 1e-3])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 
 from exporters.documents.topics import calculate
 from parts.base.refusal import SceneError
+from tests.exporters.making import table, write_scene
 
 
 def values(*words: str) -> dict[str, Any]:
@@ -56,6 +58,19 @@ def test_links_of_a_distance_are_those_of_textbooks() -> None:
     assert found["number_of_links"] == 98
     assert found["textbook_chain_distance"] > found["exact_chain_distance"] > 300
     assert found["chain_slack"] == pytest.approx(2 * (found["exact_chain_distance"] - 300), rel=0.05)
+
+
+def test_the_second_sprocket_has_its_own_tip_diameter(tmp_path: Path) -> None:
+    found = values(*DRIVE, "number_of_links=80", "tip_diameter=73", "mate_tip_diameter=160")
+    assert found["chain_tip_diameter"] == {"first": 73.0, "second": 160.0}
+    parts = {"a": {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17}}
+    parts["b"] = parts["a"] | {"number_of_teeth": 38, "tip_diameter": 160.0}
+    mate = table("[[mates]]", {"kind": "chain_drive", "first": "a", "second": "b", "number_of_links": 80})
+    scene = write_scene(tmp_path / "s.toml", parts, [{"format": "dxf"}], mate)
+    assert values(str(scene))["chain_tip_diameter"]["second"] == 160.0
+    with pytest.raises(SceneError) as refused:
+        values(*DRIVE, "number_of_links=80", "mate_tip_diameter=170")
+    assert refused.value.key == "chain.mate_tip_diameter"
 
 
 def test_a_scene_gives_its_drive() -> None:
