@@ -17,7 +17,7 @@ from parts.pages.terms import TERMS
 
 _MOTION = ("lift", "swing_deg")
 # what the drawing itself has a size of is no row: diameters, depths, the base circle where its disk shows it
-_LEAST = "least_base_circle_radius", "least_cam_radius"
+_LEAST = "least_base_circle_radius", "base_circle_radius", "least_cam_radius"
 _SIZES = (
     "follower_radius", "roller_diameter", "cone_angle_deg", "follower_offset", "centre_distance", "arm_length",
     "face_offset", "pivot_offset", "pivot_height", "start_angle_deg", "roller_distance", "inner_roller_angle_deg",

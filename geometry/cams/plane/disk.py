@@ -69,8 +69,8 @@ class DiskCam(Record):
 
     @property
     def base_radius(self) -> float:
-        """Radius of the base circle, mm."""
-        return float(abs(self.reference_point(0.0))) - self.radius
+        """Radius of the base circle, on which the follower stands where S = 0, mm."""
+        return float(abs(self._referred([np.zeros(())]))) - self.radius
 
     def way(self, angle: Real, point: Complex) -> Complex:
         """Velocity of the follower's material at ``point`` (fixed frame) per unit of S, at cam angles."""
@@ -92,7 +92,10 @@ class DiskCam(Record):
 
     def reference_point(self, angle: ArrayLike) -> Complex:
         """Roller centre, point, or the foot of the axis on a flat face, in the fixed frame, mm."""
-        s = taylor(self.motion.values(np.asarray(angle, dtype=float), 0))
+        return self._referred(taylor(self.motion.values(np.asarray(angle, dtype=float), 0)))
+
+    def _referred(self, s: Series) -> Complex:
+        """The same where S is given."""
         if not self.is_flat:
             return self.mount.centre(s)[0]
         height, normal = self.mount.face(s)

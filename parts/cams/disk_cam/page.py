@@ -39,6 +39,7 @@ from parts.cams.disk_cam.part import (
 )
 from parts.cams.disk_cam.scale_page import DrawnTable, scale_section
 from parts.cams.disk_cam.speed_page import speed_section
+from parts.cams.wheel import inner_radius
 from parts.pages.cam_steps import (
     DEFAULT_INTERVALS,
     LESSON_4,
@@ -60,6 +61,8 @@ from parts.pages.inputs import PLACE, SceneKeys, calculation, chosen_part, given
 from parts.pages.misprints import printed_for_cam, printed_for_rise
 from parts.pages.page import Sheet
 
+# lowest places of the follower below this part of its travel are rounding
+_ROUNDING = 1e-12
 # where the page of each kind is made of its keys as a table
 PAGES = {
     "cam": ("parts.cams.disk_cam.page", "disk_sheet"),
@@ -208,16 +211,25 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
     exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base
     told = ("{r_0} + {rho}", LESSON_4) if exact else ("", "")
-    page.add("least_base_circle_radius", base, *told, given=keys.base_circle_radius is not None)
+    base_step(page, cam, *told, given=keys.base_circle_radius is not None)
     if isinstance(cam.mount, Translating):
         # the profile's farthest point stands on the radius of the highest place of the follower, fig. 4.3
         beside = 0.0 if cam.is_flat else cam.mount.offset
-        most = math.hypot(beside, cam.mount.start_height + cam.motion.lift) - cam.radius
+        most = math.hypot(beside, cam.mount.start_height + cam.motion.extremes()[1]) - cam.radius
         page.add("greatest_cam_radius", most, *(("", "") if beside else ("{R_min} + {H}", LESSON_4)))
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):
         page.add("least_plate_diameter", cam.least_plate_diameter())
+
+
+def base_step(page: Sheet, cam: DiskCam, formula: str = "", source: str = "", *, given: bool = False) -> None:
+    """The base circle; it is the least radius of a cam whose follower stands lowest at S = 0."""
+    lowest = abs(cam.motion.extremes()[0]) <= _ROUNDING * cam.motion.lift
+    name = "least_base_circle_radius" if lowest else "base_circle_radius"
+    page.add(name, cam.base_radius, formula, source, given=given)
+    if not lowest:
+        page.add("least_cam_radius", inner_radius(cam))
 
 
 def contour_section(page: Sheet, shape: Contour, cam: DiskCam) -> None:

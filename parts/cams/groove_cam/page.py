@@ -7,7 +7,7 @@ import math
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.synthesis import least_convex_radius, least_hollow_radius, roller_prime_radius
 from parts.base.texts import N_
-from parts.cams.disk_cam.page import characteristics, finish, phases_of, reached, rocker_sizes
+from parts.cams.disk_cam.page import base_step, characteristics, finish, phases_of, reached, rocker_sizes
 from parts.cams.groove_cam.part import GROOVE_CAM, GrooveCamSpec, GrooveDisk
 from parts.cams.wheel import inner_radius
 from parts.pages.cam_steps import (
@@ -66,7 +66,7 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
         page.add("least_radius_both_ways", least, "", LESSON_5)
     if isinstance(cam.mount, Oscillating) and asked is not None:
         rocker_sizes(page, keys, cam, cam.mount)
-    page.add("least_base_circle_radius", cam.base_radius)
+    base_step(page, cam)
     reached(page, cam)
     page.told(least_curvature_radius=least_convex_radius(cam).value, least_hollow_radius=least_hollow_radius(cam).value)
     page.section("Groove")

@@ -96,7 +96,7 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     page = layout.diagrams.page
     page.drawn.append(draw_diagrams(page.canvas, picture, layout.diagrams.area, scales, asked))
     page = layout.profile.page
-    base_given = any(x.given and x.name == "least_base_circle_radius" for s in calculation.sections for x in s.steps)
+    base_given = any(x.given and x.name.endswith("base_circle_radius") for s in calculation.sections for x in s.steps)
     made, circles, curves = draw_profile(page.canvas, picture, paper, asked, base_given=base_given)
     page.drawn.append(made)
     page.circles += circles

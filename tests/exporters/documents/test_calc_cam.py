@@ -78,6 +78,25 @@ def test_the_greatest_radius_of_lesson_4(kind: str, offset: float) -> None:
     assert (step["formula"] == "R_min + H") == central
 
 
+RETURN_FIRST = """phases=[{move="return_",angle_deg=150,law="sine"},{move="rise",angle_deg=210,law="sine"}]"""
+
+
+@pytest.mark.parametrize(("motion", "given"), [
+    ((RETURN_FIRST, "lift=18"), 55.0), (("motion_table=[[0,5],[120,20],[240,5]]",), 30.0),
+])  # fmt: skip
+@pytest.mark.parametrize("kind", ["pointed", "flat"])
+def test_a_follower_that_does_not_begin_lowest_is_told_its_base_circle_and_the_least_radius(
+    kind: str, motion: tuple[str, ...], given: float
+) -> None:
+    """The circle of S = 0 is what was given; least and greatest radius are those of the profile's points."""
+    data = calculated(f"follower={kind}", f"base_circle_radius={given}", *motion, "step=0.5")
+    values, far = data["values"], [math.hypot(row["x"], row["y"]) for row in data["positions"]]
+    assert "least_base_circle_radius" not in values
+    assert values["base_circle_radius"] == pytest.approx(given, rel=1e-14)
+    assert values["least_cam_radius"] == pytest.approx(min(far), rel=1e-6)
+    assert values["greatest_cam_radius"] == pytest.approx(max(far), rel=1e-6)
+
+
 def rocker_angles(rows: list[dict[str, float]], distance: float, prime: float, sense: int) -> np.ndarray:
     """tan nu = (L (1 + sense psi') - d cos psi) / (d sin psi) of an arm of 80 mm, by the table's S and S'."""
     turn, rate = (np.radians([row[name] for row in rows]) for name in ("S", "S'"))
