@@ -1,8 +1,8 @@
 """The shifts that bring both meshes of a planetary set to one centre distance, and what keeps them from working.
 
-Conditions are those of the blocking contours of external and internal pairs; rings are judged with a rounded root, so
-that no cutter decides. Helical teeth are judged in their transverse section. Lengths in mm, shifts in (normal) modules
-of their own mesh.
+Conditions are those of the blocking contours of external and internal pairs; rings are judged with a root that is
+rounded as usual cutters do it, so that no cutter decides. Helical teeth are judged in their transverse section. Lengths
+in mm, shifts in (normal) modules of their own mesh.
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
 from geometry.gears.shifts.finder import AnyShiftPair, least_margin, margins, state_of
-from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState, interferences
+from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState, interferences, ring_numbers
 from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.cutter import CUTTER_ROUNDING
 from geometry.gears.teeth.limits import Margin
 from geometry.gears.teeth.ring import RoundedRoot
 from geometry.gears.teeth.transverse import transverse_rack
@@ -52,16 +53,25 @@ class RimMesh(Record, dict=True):
     def _share(self) -> float:
         return math.cos(self.helix_angle)
 
-    @property
-    def _in_ring(self) -> InternalShiftPair:
-        root = transverse_root(RoundedRoot(), self.helix_angle)
+    def _in_ring(self, rounding: float | None) -> InternalShiftPair:
+        root = transverse_root(RoundedRoot(radius=rounding), self.helix_angle)
         return InternalShiftPair(self.rim, self.central, self.rack, root, helix_angle=self.helix_angle)
 
     @cached_property
-    def _pair(self) -> AnyShiftPair:
-        if self.internal:
-            return self._in_ring
+    def _rounded(self) -> tuple[InternalShiftPair, InternalShiftPair]:
+        """In a ring whose root is rounded as a cutter does it, and in one of full rounds."""
+        return self._in_ring(CUTTER_ROUNDING), self._in_ring(None)
+
+    @cached_property
+    def _external(self) -> ShiftPair:
         return ShiftPair(self.rim, self.central, self.rack, helix_angle=self.helix_angle)
+
+    def _pair(self, central_shift: float) -> AnyShiftPair:
+        if not self.internal:
+            return self._external
+        usual, full = self._rounded
+        # a full round is less than usual where spaces are narrow
+        return usual if ring_numbers(usual, central_shift).room >= 0 else full
 
     def shift_total(self, distance: float) -> float | None:
         """x_central + x_rim of an external mesh, x_central - x_rim of an internal one; None: below the base circles."""
@@ -81,15 +91,15 @@ class RimMesh(Record, dict=True):
 
     def state(self, rim_shift: float, central_shift: float) -> PairState | InternalState:
         """The pair, rim first, in modules."""
-        return state_of(self._pair, rim_shift, central_shift)
+        return state_of(self._pair(central_shift), rim_shift, central_shift)
 
     def margins(self, wish: Requirements, rim_shift: float, central_shift: float) -> tuple[Margin, ...]:
         """Every condition: the rim is the first, the central wheel the second."""
-        return margins(self._pair, wish, rim_shift, central_shift)
+        return margins(self._pair(central_shift), wish, rim_shift, central_shift)
 
     def least_margin(self, wish: Requirements, rim_shift: float, central_shift: float) -> float:
         """The least margin of all conditions."""
-        return least_margin(self._pair, wish, rim_shift, central_shift)
+        return least_margin(self._pair(central_shift), wish, rim_shift, central_shift)
 
     def tips(self, rim_shift: float, central_shift: float) -> tuple[float, float]:
         """Radii, mm, that the rim's and the central wheel's teeth reach outwards: a ring's root, else tips."""
@@ -108,7 +118,7 @@ class RimMesh(Record, dict=True):
 
     def clearing_shift(self) -> float | None:
         """The least equal shift of rim and ring, in hundredths, that clears the ring's tips of the rim's involutes."""
-        pair, tried = self._in_ring, (k / 100 for k in range(200))
+        pair, tried = self._rounded[0], (k / 100 for k in range(200))
         return next((x for x in tried if min(interferences(pair, x, x)[:2]) >= -_ROUNDING), None)
 
     @property

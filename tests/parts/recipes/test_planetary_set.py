@@ -298,7 +298,6 @@ def test_ferguson_has_three_different_satellites() -> None:
     [
         ({"teeth": [40, 40, 120]}, "satellites", "satellites_not_assembled"),
         ({"teeth": [24, 24, 72], "satellites": 50}, "satellites", "satellites_collide"),
-        pytest.param({"teeth": [667, 667, 2001]}, "teeth", "no_shifts_keep_all", marks=pytest.mark.heavy),
         ({"teeth": [24, 24, 72], "helix_angle_deg": 45.0}, "teeth", "no_shifts_keep_all"),
         ({"teeth": [24, 24]}, "teeth", "wheels_of_scheme"),
         ({"teeth": [2, 24, 72]}, "teeth[1]", "not_allowed"),

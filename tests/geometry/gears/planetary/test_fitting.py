@@ -12,9 +12,10 @@ from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import external_pair
 from geometry.gears.pairs.internal import internal_pair
 from geometry.gears.planetary.fitting import Fitting
-from geometry.gears.planetary.sets import SCHEMES, Search, found_sets
+from geometry.gears.planetary.sets import SCHEMES, PlanetarySet, Search, found_sets
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.ring_limits import root_form_diameter
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from parts.gears.ring_gear.part import RingGearSpec, settled_section
@@ -70,3 +71,19 @@ def test_where_the_first_mesh_has_no_shifts_the_second_is_not_asked(monkeypatch:
     assert fit.fit(found_sets(wish)[0]) is None
     assert asked
     assert not any(asked)
+
+
+@pytest.mark.parametrize("teeth", [(100, 100, 300), (501, 501, 1503), (702, 600, 1902)])
+def test_sets_of_many_teeth_need_no_shifts(teeth: tuple[int, int, int]) -> None:
+    """A ring was judged as if its roots were full rounds: -1.75, 1, 1, 0.25 for 501/501/1503, none for 702/600/1902.
+
+    The satellite's tips end on the ring at hypot(r_b3, sqrt(r_a2^2 - r_b2^2) + a sin(alpha)), before its fillets.
+    """
+    z1, z2, z3 = teeth
+    fit = Fitting(RACK, Requirements(0.25, 1.1), Fraction(1, 3)).fit(PlanetarySet(SCHEMES["james"], (z1, z2, z2, z3)))
+    assert fit is not None
+    assert fit.shifts == pytest.approx((0.0, 0.0, 0.0, 0.0), abs=1e-9)
+    base, sine = math.cos(RACK.pressure_angle) / 2, math.sin(RACK.pressure_angle)
+    end = math.sqrt((z2 / 2 + 1) ** 2 - (z2 * base) ** 2) + (z3 - z2) / 2 * sine
+    ring = settled_section(RingGearSpec(module=1.0, number_of_teeth=z3))
+    assert 2 * math.hypot(z3 * base, end) < root_form_diameter(ring)
