@@ -67,20 +67,61 @@ def _refused_together(
     that does not stand beside those before it.
     """
 
-    def stand(number: int, backlash: float) -> bool:
+    def alone(number: int, backlash: float) -> bool:
         changed = tried(mates[number], "normal_backlash", backlash)
         return bool(mated(ends, [*mates[:number], changed, *mates[number + 1 :]], part_of))
 
+    def all_of_them(number: int, backlash: float) -> bool:
+        return bool(mated(ends, _capped(mates, backlash), part_of))
+
     last = next(k for k in range(len(mates)) if not kept(lambda k: bool(mated(ends, mates[: k + 1], part_of)), k))
-    asked = {k: backlash for k, mate in enumerate(mates) if (backlash := getattr(mate, "normal_backlash", 0.0))}
+    asked = {k: _backlash(mate) for k, mate in enumerate(mates) if _backlash(mate)}
     for number in sorted(asked, key=asked.__getitem__, reverse=True):
-        if kept(partial(stand, number), 0.0):
-            cure = partial(nearest, partial(stand, number), asked[number], 0.0)
-            gears = [part_of[mates[last].second]]
-            wrong = ParameterError("normal_backlash", asked[number], "backlash_leaves_no_teeth", cure, gears=gears)
-            return placed(source, f"mates[{number + 1}]", wrong, unit_of(type(mates[number]), wrong.name))
+        for stand in (all_of_them, alone):
+            if kept(partial(stand, number), 0.0):
+                cure = partial(nearest, partial(stand, number), asked[number], 0.0)
+                gears = [part_of[mates[last].second]]
+                wrong = ParameterError("normal_backlash", asked[number], "backlash_leaves_no_teeth", cure, gears=gears)
+                return placed(source, f"mates[{number + 1}]", wrong, unit_of(type(mates[number]), wrong.name))
     bare = refusal.told_of(refusal.name, refusal.value, None)
     return pair_refused(bare, ends, mates[last], mates, part_of, source, f"mates[{last + 1}]")
+
+
+def _backlash(mate: MateKeys) -> float:
+    """What a mate asks for, mm; 0: nothing."""
+    return getattr(mate, "normal_backlash", None) or 0.0
+
+
+def _capped(mates: Sequence[MateKeys], most: float) -> list[MateKeys]:
+    """The mates, none of which asks for more backlash than that, mm."""
+    return [tried(mate, "normal_backlash", most) if _backlash(mate) > most else mate for mate in mates]
+
+
+def _pointed(ends: Ends, mates: Sequence[MateKeys], part_of: PartOf) -> list[tuple[ParameterError, list[str]]]:
+    """The refusals of mates whose backlash leaves no whole teeth of their two alone, with the gears."""
+    found = []
+    for mate in mates:
+        try:
+            mated(ends, [mate] if _backlash(mate) else [], part_of)
+        except ParameterError as refusal:
+            gears = refusal.numbers.get("gears")
+            if refusal.code == "backlash_leaves_no_teeth" and isinstance(gears, list):
+                two = enumerate((mate.first, mate.second), 1)
+                found.append((refusal, [part_of[end] for k, end in two if k in gears]))
+    return found
+
+
+def _taken_by_all(
+    refusals: Sequence[ParameterError], ends: Ends, mates: Sequence[MateKeys], part_of: PartOf
+) -> Nearest | None:
+    """The most backlash that all mates take, from the least of what each of the refused ones takes alone."""
+
+    def stand(most: float) -> bool:
+        return bool(mated(ends, _capped(mates, most), part_of))
+
+    alone = [r.nearest.value for r in refusals if r.nearest is not None]
+    least = min((value for value in alone if isinstance(value, float)), default=0.0)
+    return Nearest(least, "at_most") if kept(stand, least) else nearest(stand, least, 0.0)
 
 
 def check_fit(
@@ -229,18 +270,23 @@ def pair_refused(
 ) -> SceneError:
     """The refusal of a mate under the key of the scene, its own or that of a part; ``place``: where the mate stands.
 
-    What it offers is tried once: a key of the mate on both parts, one of a part on all its ``mates``.
+    What it offers is tried once: a key of the mate on both parts, one of a part on all its ``mates``. A backlash that
+    leaves no whole teeth is told with the gears of all mates of which that is so, and with what all of them take.
     """
     kind = MATES[str(mate.__struct_config__.tag)]
     owner, _, key = refusal.name.partition(".")
     if owner == "mate":
         told = placed(source, place, refusal.renamed(key), unit_of(kind.keys, key))
-        gears = refusal.numbers.get("gears")
-        if refusal.code == "backlash_leaves_no_teeth" and isinstance(gears, list):
+        alone = partial(_tried, refusal, lambda value: mated(ends, [tried(mate, key, value)], part_of))
+        told.offer(alone)
+        if refusal.code == "backlash_leaves_no_teeth":
+            specs = {name: end.keys for name, end in ends.items()}
+            pairs = [(m, MATES[str(m.__struct_config__.tag)], (part_of[m.first], part_of[m.second])) for m in mates]
+            held = [m for m, its_kind, pair in pairs if _joins(its_kind, specs, pair)]
+            pointed = _pointed(ends, held, part_of)
             # here gears have names
-            ends_of = (mate.first, mate.second)
-            told.numbers["gears"] = [*dict.fromkeys(part_of[end] for k, end in enumerate(ends_of, 1) if k in gears)]
-        told.offer(lambda: _tried(refusal, lambda value: mated(ends, [tried(mate, key, value)], part_of)))
+            told.numbers["gears"] = [*dict.fromkeys(gear for _, gears in pointed for gear in gears)]
+            told.offer(lambda: _taken_by_all([one for one, _ in pointed], ends, held, part_of) or alone())
         return told
     owner, key = ("first", key) if owner == "first" else ("second", refusal.name)
     part = part_of[mate.first if owner == "first" else mate.second]

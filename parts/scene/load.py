@@ -403,7 +403,7 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
     ]
     instances, groups = instance_specs(raw.get("instances", {}), parts, source)
     mates: list[MateKeys] = []
-    places: dict[str, str] = {}
+    numbers: list[int] = []
     for number, table in enumerate(raw.get("mates", []), 1):
         place = f"mates[{number}]"
         with _of_a_part(parts, instances, table):
@@ -412,9 +412,8 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
             if mate in mates:
                 raise SceneError(source, place, None, "listed_twice")
             mates.append(mate)
-            if len(mates) != number:
-                places[f"mates[{len(mates)}]"] = origins.get(place, place)
-    origins |= places
+            numbers.append(number)
+    _renumber(origins, numbers)
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
     steps = step_specs(raw.get("steps", []), parts, instances, groups, source)
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
@@ -550,6 +549,19 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec
+
+
+def _renumber(origins: dict[str, str], numbers: list[int]) -> None:
+    """The places of mates that groups are told out into; ``numbers``: which mate of the file each one is."""
+    if numbers == [*range(1, len(numbers) + 1)]:
+        return
+    told: dict[str, dict[str, str]] = {}
+    for there in [there for there in origins if there.startswith("mates[")]:
+        row = there[: there.index("]") + 1]
+        told.setdefault(row, {})[there.removeprefix(row)] = origins.pop(there)
+    for k, number in enumerate(numbers, 1):
+        row = f"mates[{number}]"
+        origins |= {f"mates[{k}]{rest}": place for rest, place in ({"": row} | told.get(row, {})).items()}
 
 
 def default_export(name: str) -> ExportSpec:

@@ -346,6 +346,18 @@ def test_teeth_spacing_and_number_that_are_offered_for_satellites_that_do_not_go
         assert refusal(teeth=teeth, satellites=satellites, spacing="unequal").code == "satellites_collide"
 
 
+@pytest.mark.parametrize("keys", [{"teeth": [12, 12, 36]}, {**DAVID, "teeth": [50, 30, 20, 60]}])
+def test_a_backlash_is_refused_by_what_all_pairs_of_the_set_take(keys: dict[str, Any]) -> None:
+    """Before, what one pair takes was offered, which the next one did not, in a key that nobody can type."""
+    found = refusal(**keys, satellites=2, normal_backlash=3.0)
+    assert (found.key, found.code) == ("assemblies[1].normal_backlash", "backlash_leaves_no_teeth")
+    assert found.nearest is not None
+    most = found.nearest.value
+    assert isinstance(most, float)
+    make_parts(scene(**keys, satellites=2, normal_backlash=most), "t")
+    assert refusal(**keys, satellites=2, normal_backlash=1.001 * most).key == "assemblies[1].normal_backlash"
+
+
 def distance_of(teeth: int, total: float, beta: float = 0.0) -> float:
     """inv a_wt = inv a_t + 2 tan a_n x / z, a = m_n z cos a_t / (2 cos beta cos a_wt), m_n = 1; z and x with signs."""
     from scipy.optimize import brentq

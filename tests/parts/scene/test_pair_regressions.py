@@ -1,5 +1,7 @@
 """What users broke: pairs with relief, thin walls, offers of distances and of helical shifts."""
 
+import math
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -168,3 +170,23 @@ def test_a_backlash_that_each_pair_of_a_train_takes_alone_and_both_do_not_is_tol
         names = [alone["mates"][kept][end] for end in ("first", "second")]
         make_parts(scene_from_dict({"parts": {n: alone["parts"][n] for n in names}, "mates": [alone["mates"][kept]]},
                                    "t", "t"), "t")  # fmt: skip
+
+
+def test_a_backlash_is_refused_by_what_all_pairs_of_a_train_take() -> None:
+    """Before, each pair told its own limit, and what was offered met the refusal of the next one."""
+    parts = {f"g{z}": {"kind": "spur_gear", "module": 2.0, "number_of_teeth": z} for z in (40, 30, 20, 12)}
+    mates = [{"kind": "external_gear_pair", "first": first, "second": second, "normal_backlash": 4.0}
+             for first, second in pairwise(parts)]  # fmt: skip
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": parts, "mates": mates}, "t", "t"), "t")
+    assert refused.value.key == "mates[1].normal_backlash"
+    assert refused.value.numbers["gears"] == list(parts)
+    assert refused.value.nearest is not None
+    most = refused.value.nearest.value
+    assert isinstance(most, float)
+    held = {"parts": parts, "mates": [mate | {"normal_backlash": most} for mate in mates]}
+    make_parts(scene_from_dict(held, "t", "t"), "t")
+    # at the tip of 12 teeth nothing is left of half of the angle by ISO 21771; both of a pair are thinned
+    alpha = math.acos(12 * math.cos(math.radians(20)) / 14)
+    half = math.pi / 24 + math.tan(math.radians(20)) - math.radians(20) - math.tan(alpha) + alpha
+    assert most == pytest.approx(2 * 24 * half * math.cos(math.radians(20)), abs=1e-3)
