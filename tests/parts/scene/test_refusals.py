@@ -58,6 +58,8 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
         "did you mean mate_number_of_teeth"),
     "height of a wheel": ({"height": "8"}, {}, "parts.gear.height", "8", "did you mean face_width"),
     "height of a rack": ({"kind": '"rack"', "height": "8"}, {}, "parts.gear.height", "8", "did you mean body_height"),
+    "height of a hub": (
+        {"hub": "{ diameter = 14, height = 5 }"}, {}, "parts.gear.hub.height", "5", "did you mean above"),
     "outer diameter of a wheel": (
         {"outer_diameter": "50"}, {}, "parts.gear.outer_diameter", "50", "did you mean tip_diameter"),
     "shaft of a wheel": ({"shaft_diameter": "6"}, {}, "parts.gear.shaft_diameter", "6", "did you mean bore_diameter"),
