@@ -238,7 +238,8 @@ def _longer(
     corner, leg = corners[both[-1]], legs[both[-1]]
     key, size = ("chamfer", corner.chamfer) if corner.chamfer else ("fillet", corner.fillet)
     most = room(both[-1]) * size / leg
-    cure = limit(most * (1 - _SAME), size, digits=6) if most > 0 else None
+    # an edge may be used up
+    cure = limit(most * (1 + _SAME / 2), size, digits=6) if most > 0 else None
     return both[-1], ParameterError(key, size, "corner_longer_than_edge", cure)
 
 

@@ -308,7 +308,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
     for k, step in enumerate(keys.steps, 1):
         if radii[k - 1] < radii[k] > radii[k + 1] and step.chamfer > step.length / 2:
             # of a step that stands out at both of its ends
-            most = most_of(step.length / 2, step.chamfer)
+            most = limit(step.length / 2, step.chamfer, digits=6)
             raise ParameterError(f"steps[{k}].chamfer", step.chamfer, "corner_longer_than_edge", most)
         least = min([step.diameter, *(g.diameter for g in step.grooves)])
         if keys.bore_diameter >= least:
@@ -325,7 +325,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
                 raise _groove_beyond(name, groove, place, room, step.length)
             # both of its corners, and its walls
             if groove.fillet > (widest := min(groove.width, step.diameter - groove.diameter) / 2):
-                cure = most_of(widest, groove.fillet)
+                cure = limit(widest, groove.fillet, digits=6)
                 raise ParameterError(f"{name}.fillet", groove.fillet, "corner_longer_than_edge", cure)
             place = groove.at + groove.width
             inside = 2 * _inside(keys, min(z + groove.at, whole - z - place))

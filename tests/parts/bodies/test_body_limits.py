@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geometry.base.errors import Nearest
 from parts.base.part import Part
 from parts.scene.load import make_parts, scene_from_dict
 from tests.parts.limits import check_limit, check_offer, check_refused, offset_limits, refused, scene_of, with_key
@@ -129,6 +130,22 @@ def test_a_limit_is_told_and_holds(
     part: dict[str, Any], key: str, code: str, limit: float, side: str, numbers: dict[str, float]
 ) -> None:
     check_limit(scene_of(part), f"parts.p.{key}", code, limit, side, **numbers)
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "offer"),
+    [
+        # 1.499999 of a shoulder of 2.5 less its rounding of 1 was offered, though 1.5 builds
+        (steps(step(25.0, 18.0, fillet=1.0), step(30.0, 40.0, chamfer=1.6)), "steps[2].chamfer", 1.5),
+        (steps(step(20.0, 40.0), step(28.0, 1.8, chamfer=1.0), step(20.0, 9.0)), "steps[2].chamfer", 0.9),
+        (steps(step(20.0, 40.0, grooves=[GROOVE | {"fillet": 1.1}])), f"{GR}.fillet", 1.0),
+    ],
+)
+def test_an_edge_may_be_used_up_and_the_offer_says_so(part: dict[str, Any], key: str, offer: float) -> None:
+    refusal = refused(scene_of(part))
+    assert refusal is not None
+    assert (refusal.key, refusal.nearest) == (f"parts.p.{key}", Nearest(offer, "at_most"))
+    assert refused(with_key(scene_of(part), f"parts.p.{key}", offer)) is None
 
 
 def test_a_keyway_that_no_place_is_long_enough_for_is_shorter_where_it_is() -> None:
