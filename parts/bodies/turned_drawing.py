@@ -342,10 +342,16 @@ def _rough(drilled: Sequence[Line], loop: Loop, subject: Subject) -> Iterator[No
 
 
 def _rough_seats(loop: Loop, subject: Subject) -> Iterator[Note]:
-    """The sign of each step of a shaft, where the export wishes one."""
+    """The sign of each step of a shaft, where the export wishes one; a thread is no seat."""
     if (wished := subject.wishes.shaft_roughness) is None or subject.part.kind != "shaft":
         return
-    for seat in seats(loop):
+    threads = _threads(subject.part)
+
+    def seated(curve: Line | Arc) -> bool:
+        middle = (start_point(curve) + end_point(curve)) / 2
+        return not any(one.low < middle.real < one.high for one in threads)
+
+    for seat in seats(loop, seated):
         (start, way), words = (seat.start, seat.end - seat.start), subject.rough(wished)
         at, *others = ((start + share * way, 1j) for share in (0.5, 0.25, 0.75))
         also = (*others, *((point.conjugate(), -1j) for point, _ in (at, *others)))

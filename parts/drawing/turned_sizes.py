@@ -140,17 +140,18 @@ def bores(loop: Loop, told: Told = lambda curve: True) -> tuple[Line, ...]:
     return tuple(narrow[:1] if _are_listed(edges) else narrow)
 
 
-def seats(loop: Loop) -> tuple[Line, ...]:
-    """The outer cylinders, the longest one of each diameter, without chamfers; grooves left out.
+def seats(loop: Loop, told: Told = lambda curve: True) -> tuple[Line, ...]:
+    """The outer cylinders that are ``told``, the longest one of each diameter, without chamfers; grooves left out.
 
     Where corners are too many for sizes, the widest one alone.
     """
     *_, edges = _taken_apart(_walled(_joined(loop)))
     found = dict[float, Line]()
     for k, edge in enumerate(edges):
-        if edge.outer and edge.runs_along() and isinstance(edge.curve, Line) and not _groove(edges, k):
+        line = edge.curve
+        if edge.outer and edge.runs_along() and isinstance(line, Line) and not _groove(edges, k) and told(line):
             radius = _radius(edge.ends[0].imag)
-            found[radius] = max(found.get(radius, edge.curve), edge.curve, key=lambda line: abs(line.end - line.start))
+            found[radius] = max(found.get(radius, line), line, key=lambda one: abs(one.end - one.start))
     wide = [found[radius] for radius in sorted(found, reverse=True)]
     return tuple(wide[:1] if _are_listed(edges) else wide)
 

@@ -294,6 +294,15 @@ def test_each_step_of_a_shaft_has_its_sign_of_roughness_where_one_is_wished(tmp_
         assert sum(text.dxf.text == "Ra 0.4" for text in texts) == count
 
 
+def test_a_thread_has_no_sign_of_the_seats(tmp_path: Path) -> None:
+    """Of two steps of one diameter the plain one has it, though the thread is longer."""
+    steps = [{"diameter": 20.0, "length": 40.0, "thread": "M20"}, {"diameter": 28.0, "length": 30.0}]
+    for more, count in (([], 1), ([{"diameter": 20.0, "length": 30.0}], 2)):
+        shaft = {"kind": "shaft", "steps": [*steps, *more]}
+        texts = drawn(tmp_path, shaft, drawing={"shaft_roughness": 0.4}).modelspace().query("TEXT")
+        assert sum(text.dxf.text == "Ra 0.4" for text in texts) == count
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("part", "count"),
