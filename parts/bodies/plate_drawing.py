@@ -190,7 +190,7 @@ def place_sizes(
         low, high = map(of, bounds)
         nearest = {round(of(p), _DIGITS): p for p in sorted(places, key=other, reverse=True)}
         for k, (value, at) in enumerate(sorted(nearest.items()), 1):
-            if low < value < high and abs(value - of(datum)) > _NEAR:
+            if low + _NEAR < value < high - _NEAR and abs(value - of(datum)) > _NEAR:
                 yield Size(f"{name}.{k}", start, at, side)
 
 

@@ -18,6 +18,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Label, Profile, Segment, circle
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.windows import RoundHoles
+from parts.bodies import plate_drawing
 from parts.drawing.canvas import Box, Canvas, text_of, text_width
 from parts.drawing.extent import crossings, farthest, reach, sampled
 from parts.drawing.ink import Ink
@@ -125,6 +126,15 @@ def test_holes_alone_are_told_by_their_places_where_several_are_alike() -> None:
     one, two, other, four, pair = own.round_holes
     assert apart(own) == (one, two)
     assert circled(own) == (other, four, pair)
+
+
+@pytest.mark.parametrize("right", [64.61153060046303, 64.61153060056303])
+def test_corners_of_a_plate_that_grew_to_any_place_have_no_size_beside_its_width(right: float) -> None:
+    """As it was: the width was told twice where its ninth decimal was rounded down."""
+    low, high = -30 - 20j, complex(right, 20)
+    places = [low, complex(right, -20), high, 0j, 58.6 + 0j]
+    told = [size.name for size in plate_drawing.place_sizes(low, (low, low), places, (low, high))]
+    assert told == ["x.2", "x.3", "y.2"]
 
 
 def test_sizes_of_places_run_from_the_axes_or_from_side_to_side() -> None:
