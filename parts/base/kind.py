@@ -45,11 +45,15 @@ _NUMBERS = (("z", "number_of_teeth"), ("m", "module"), ("x", "profile_shift_coef
 
 
 class HoleAt(Record):
-    """A round hole: its centre (None: not known yet), its diameter, mm, and the instance whose axle it takes."""
+    """A round hole: its centre (None: not known yet), its diameter, mm, and the instance whose axle it takes.
+
+    ``beside``: one of a grid about that axle.
+    """
 
     centre: complex | None
     diameter: float
     axle: str | None = None
+    beside: bool = False
 
 
 class Stock(Record):

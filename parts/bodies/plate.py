@@ -28,7 +28,11 @@ _Place = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 
 # holes of one grid
 _MOST_HOLES = 1000
-_COLUMNS = Meta(ge=1, le=_MOST_HOLES, description="a grid of equal holes: how many along x, the first one at `at`")
+_COLUMNS = Meta(
+    ge=1,
+    le=_MOST_HOLES,
+    description="a grid of equal holes: how many along x, the first one at `at`, or all about the axle of `axis_of`",
+)
 _ROWS = Meta(ge=1, le=_MOST_HOLES, description="how many along y")
 _PITCH = part_mm("of a grid: from each hole to the next along x", above=0, example=25.0)
 _ROW_PITCH = part_mm("the same along y; default: pitch", above=0, example=25.0)
@@ -61,10 +65,14 @@ class HoleAtTable(Struct, forbid_unknown_fields=True):
         return self.pitch or self.row_pitch or 0.0, self.row_pitch or self.pitch or 0.0
 
     def centres(self) -> list[complex]:
-        """Where its holes stand, row by row; none while its axle is not known."""
+        """Where its holes stand, row by row; none while its axle is not known, which a grid has in its middle."""
+        if self.at is None:
+            return []
         x, y = self.steps
-        return [complex(*self.at) + complex(i * x, j * y) for j in range(self.rows) for i in range(self.columns)
-                ] if self.at is not None else []  # fmt: skip
+        first = complex(*self.at)
+        if self.axis_of is not None:
+            first -= complex((self.columns - 1) * x, (self.rows - 1) * y) / 2
+        return [first + complex(i * x, j * y) for j in range(self.rows) for i in range(self.columns)]
 
 
 class SlotTable(Struct, forbid_unknown_fields=True):
@@ -180,10 +188,6 @@ def _check_grid(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) 
             raise ParameterError(f"{place}.{key}", pitch, "only_of_a_grid", Nearest(None), key=many)
         if count == 1:
             continue
-        if table.axis_of is not None:
-            raise ParameterError(
-                f"{place}.{many}", count, "grid_on_axle", Nearest(1, "at_most") if count == table.count else None
-            )
         if step == 0:
             raise ParameterError(f"{place}.pitch", None, "grid_needs_pitch", count=count)
         if step < least:
@@ -247,11 +251,13 @@ def _by_place(
     if found is None:
         return refusal
     table = getattr(keys, found["key"])[int(found["number"]) - 1]
-    if isinstance(table, HoleAtTable) and table.axis_of is not None and table.at is not None:
+    outside = refusal.code == "hole_lies_outside"
+    on_axle = isinstance(table, HoleAtTable) and table.axis_of is not None and (outside or table.count == 1)
+    if on_axle and table.at is not None:
         x, y = (round(value, 4) + 0.0 for value in table.at)
         told = {"axle": table.axis_of, "x": x, "y": y}
         return ParameterError(f"{found['place']}.axis_of", table.axis_of, "hole_of_axle_outside", **told)
-    if refusal.code != "hole_lies_outside":
+    if not outside:
         return refusal
     if isinstance(table, HoleAtTable) and table.count > 1:
         return _grid_outside(keys, int(found["number"]), holds)
@@ -294,7 +300,7 @@ class Extruded(Kind[K, T]):
     def holes_at(self, keys: K) -> Sequence[HoleAt]:
         """Its holes; those for axles get their places when these stand."""
         waiting: list[complex | None] = [None]
-        return [HoleAt(at, h.diameter, h.axis_of) for h in keys.holes for at in h.centres() or waiting]
+        return [HoleAt(at, h.diameter, h.axis_of, h.count > 1) for h in keys.holes for at in h.centres() or waiting]
 
     def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
         """The outline moved, and what is engraved in it."""
@@ -322,7 +328,7 @@ def _box(keys: PlateSpec) -> tuple[complex, complex]:
     low, high = (complex(*keys.centre) + sign * complex(keys.width, keys.height) / 2 for sign in (-1, 1))
     if keys.beyond_axles is not None:
         beyond = keys.beyond_axles * (1 + 1j)
-        for at in (complex(*hole.at) for hole in keys.holes if hole.axis_of is not None and hole.at is not None):
+        for at in (at for hole in keys.holes if hole.axis_of is not None for at in hole.centres()):
             one, two = at - beyond, at + beyond
             low = complex(min(low.real, one.real), min(low.imag, one.imag))
             high = complex(max(high.real, two.real), max(high.imag, two.imag))

@@ -456,7 +456,7 @@ def _off_centre(
                 continue
             centre = frame.centre + hole.centre * cmath.exp(1j * frame.rotation)
             for axle, wheel in upright:
-                distance, own = abs(axle.centre - centre), axle.id == hole.axle
+                distance, own = abs(axle.centre - centre), axle.id == hole.axle and not hole.beside
                 if axle is frame or not (own or distance < hole.diameter / 2):
                     continue
                 bore = _axle_diameter(axle, wheel, frame, plate, upright)

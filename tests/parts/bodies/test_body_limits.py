@@ -521,7 +521,6 @@ def test_a_grid_of_holes_is_refused_by_the_key_that_cures_it() -> None:
         (scene(columns=1, rows=1), "pitch", "only_of_a_grid"),
         (scene(rows=1, row_pitch=5.0), "row_pitch", "only_of_a_grid"),
         (scene(at=[-40.0, 0.0]), "at", "grid_lies_outside"),
-        (scene(at=None, axis_of="q") | {"instances": {"q": {"part": "p"}}}, "columns", "grid_on_axle"),
     ):
         found = refused(wrong)
         assert found is not None

@@ -92,6 +92,37 @@ def test_a_frame_follows_the_shifts_of_its_gears(shift: float, turned: float | N
         assert diameter == pytest.approx(wanted, abs=1e-5)
 
 
+@pytest.mark.parametrize("turned", [None, 25.0])
+def test_a_grid_stands_about_its_axle(turned: float | None, tmp_path: Path) -> None:
+    """Four screws of a motor, 15.5 mm beside its axle each way along the plate, at the axle's own hole."""
+    holes = BOTH + ', { axis_of = "pinion", diameter = 3.2, columns = 2, rows = 2, pitch = 31.0 }'
+    more = "" if turned is None else f"[instances.frame]\nat = [-3.0, 2.0, -3.0]\nrotation_deg = {turned}"
+    scene = _scene(
+        tmp_path, holes=holes, more=more + '\n[[exports]]\nformat = "svg"\npurpose = "part"\nparts = ["frame"]'
+    )
+    assert main(["check", scene]) == 0
+    assert main(["build", scene, "--out", str(tmp_path), "--part", "frame"]) == 0
+    found = []
+    for entity in ezdxf.readfile(tmp_path / "s" / "frame.dxf").query('LWPOLYLINE[layer=="CUT_INNER"]'):
+        one, two = (complex(p[0], p[1]) for p in entity.get_points("xy"))  # type: ignore[attr-defined]
+        if abs(one - two) < 5:
+            found.append((one + two) / 2)
+    turn = 1.0 if turned is None else complex(math.cos(math.radians(turned)), -math.sin(math.radians(turned)))
+    axle = 0j if turned is None else complex(3, -2) * turn
+    wanted = [axle + complex(x, y) for y in (-15.5, 15.5) for x in (-15.5, 15.5)]
+    assert len(found) == 4
+    assert all(min(abs(one - at) for one in found) < 1e-5 for at in wanted)
+
+
+def test_an_axle_beside_its_grid_is_told_as_ever(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The middle one of three by three takes the axle: where that passes it off its centre, it is BROKEN."""
+    grid = '{{ axis_of = "pinion", diameter = {}, columns = 3, rows = 3, pitch = 12.0 }}'
+    more = '[instances.frame]\nat = [0.0, 0.0, -3.0]\n[instances.cover]\npart = "frame"\nat = [{}, 0.0, 3.0]'
+    for diameter, off, code in ((6.0, 0.0, 0), (6.0, 0.05, 1), (6.2, 0.05, 0)):
+        assert main(["check", _scene(tmp_path, holes=grid.format(diameter), more=more.format(off))]) == code
+        assert ("BROKEN" in capsys.readouterr().out) == bool(code)
+
+
 @pytest.mark.parametrize(
     ("holes", "more", "code", "told"),
     [
