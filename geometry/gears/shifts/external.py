@@ -118,11 +118,14 @@ def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
     return form_length(SpurGear(1.0, number_of_teeth, rack, shift))
 
 
-def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:
-    """Where the mate's tip asks the flank of the first (0) or second (1) gear to begin, against where it does."""
+def active_flank(pair: ShiftPair, x1: float, x2: float, index: int, exactly: bool = True) -> Margin:
+    """Where the mate's tip asks the flank of the first (0) or second (1) gear to begin, against where it does.
+
+    Not ``exactly``: at the base circle, where that of no undercut gear begins lower.
+    """
     start = state_of(pair, x1, x2).starts[index]
     share = math.cos(pair.helix_angle)
-    form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index] * share) / share
+    form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index] * share) / share if exactly else 0.0
     return Margin.above(f"active_flank_{('first', 'second')[index]}", start, form)
 
 
@@ -215,11 +218,12 @@ class Requirements(Record):
 
 def margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> tuple[Margin, ...]:
     """Every requirement with its margin; nan where the pair does not exist."""
-    return tuple(Margin.above(*side) for side in _sides(pair, wish, x1, x2))
+    flanks = (active_flank(pair, x1, x2, i) for i in (0, 1))
+    return (*(Margin.above(*side) for side in _sides(pair, wish, x1, x2)), *flanks)
 
 
 def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterator[tuple[str, float, float]]:
-    """The requirements by name, value and limit, those that cost a root last."""
+    """The requirements that cost no root, by name, value and limit."""
     state = state_of(pair, x1, x2)
     yield "working_angle", state.involute, 0.0
     for i, who in enumerate(("first", "second")):
@@ -231,22 +235,18 @@ def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterato
     if wish.pole_inside:
         yield "approach", state.pole, state.starts[0]
         yield "recess", state.tips[0], state.pole
-    for i in (0, 1):
-        flank = active_flank(pair, x1, x2, i)
-        yield flank.name, flank.value, flank.limit
 
 
 def least_margin(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> float:
-    """The least of all margins, -1 where the pair does not exist; form circles only where all else is kept."""
-    least = math.inf
-    for name, value, limit in _sides(pair, wish, x1, x2):
-        margin = value - limit
-        if math.isnan(margin):
-            return -1.0
-        if least < 0 and name.startswith("active_flank"):
-            break
-        least = min(least, margin)
-    return least
+    """The least of all margins, -1 where the pair does not exist; roots only where all else is kept.
+
+    It has no steps, by which hills of the legal shifts would be missed.
+    """
+    found = [value - limit for _, value, limit in _sides(pair, wish, x1, x2)]
+    for i in (0, 1):
+        exactly = (x1, x2)[i] >= least_shift(pair, i) or min(found) >= 0
+        found.append(active_flank(pair, x1, x2, i, exactly).margin)
+    return -1.0 if any(map(math.isnan, found)) else min(found)
 
 
 class ContourLine(Record):

@@ -104,24 +104,32 @@ def _first_shifts(pair: AnyShiftPair, shift_sum: float) -> tuple[float, float, f
     return (low, high, _step(box)) if low < high else None
 
 
-def _sums(pair: AnyShiftPair) -> list[float]:
-    """The lines of one working angle that are looked at."""
+def _sums(pair: AnyShiftPair, wish: Requirements) -> list[float]:
+    """The lines of one working angle that are looked at; where none has legal shifts, also the best between them."""
     if (found := _window(pair)) is None:
         return []
     count = math.ceil((found.highest - found.lowest) / found.step) + 1
-    return [found.lowest + found.step * k for k in range(count)]
+    sums = [found.lowest + found.step * k for k in range(count)]
+    if any(legal_shifts(pair, wish, total) for total in sums):
+        return sums
+
+    def greatest(total: float) -> float:
+        line = _first_shifts(pair, total)
+        return -math.inf if line is None else max(_marked(partial(_margin_on, pair, wish, total), *line)[1])
+
+    return _marked(greatest, sums[0], sums[-1], found.step)[0]
+
+
+def _margin_on(pair: AnyShiftPair, wish: Requirements, total: float, x1: float) -> float:
+    return least_margin(pair, wish, x1, second_shift(pair, total, x1))
 
 
 # what is looked for on a line asks for its legal part, one choice of shifts after another
 @lru_cache(maxsize=1 << 11)
 def legal_shifts(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> tuple[tuple[float, float], ...]:
     """The intervals of x1 that keep the requirements at x1 + x2, or x2 - x1 of an internal pair, = ``shift_sum``."""
-
-    def margin(x1: float) -> float:
-        return least_margin(pair, wish, x1, second_shift(pair, shift_sum, x1))
-
     found = _first_shifts(pair, shift_sum)
-    return () if found is None else tuple(_positive(margin, *found))
+    return () if found is None else tuple(_positive(partial(_margin_on, pair, wish, shift_sum), *found))
 
 
 def for_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> Proposal | None:
@@ -140,7 +148,7 @@ def nearest_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> flo
     def legal(total: float) -> float:
         return 0.0 if legal_shifts(pair, wish, total) else -math.inf
 
-    good = min((s for s in _sums(pair) if legal(s) == 0), key=lambda s: abs(s - shift_sum), default=None)
+    good = min((s for s in _sums(pair, wish) if legal(s) == 0), key=lambda s: abs(s - shift_sum), default=None)
     return None if good is None else _last_inside(legal, good, shift_sum)
 
 
@@ -205,7 +213,7 @@ def greatest_contact_ratio(pair: AnyShiftPair, wish: Requirements) -> Proposal |
 
 
 def _is_legal(pair: AnyShiftPair, wish: Requirements, total: float, x1: float) -> bool:
-    return least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING
+    return _margin_on(pair, wish, total, x1) >= -_ROUNDING
 
 
 def _foot_sliding(pair: AnyShiftPair, total: float, x1: float) -> float:
@@ -234,7 +242,7 @@ def _best(
         x1 = shift(total)
         return -math.inf if x1 is None else worth(total, x1)
 
-    sums = _sums(pair)
+    sums = _sums(pair, wish)
     if not sums:
         return None
     values = [function(s) for s in sums]
@@ -270,19 +278,27 @@ def _golden(function: Callable[[float], float], low: float, high: float, section
     return max((low, high, (low + high) / 2), key=function)
 
 
-def _positive(function: Callable[[float], float], low: float, high: float, step: float) -> list[tuple[float, float]]:
-    """The intervals in which a function is >= 0; ends are roots, the side that is >= 0."""
+def _marked(
+    function: Callable[[float], float], low: float, high: float, step: float
+) -> tuple[list[float], list[float]]:
+    """Marks no farther apart than a step with a function's values, and where all about is below 0, tops between two."""
     count = max(2, math.ceil((high - low) / step))
     marks = [low + (high - low) * k / count for k in range(count + 1)]
     values = [function(m) for m in marks]
-    if max(values) < -_STEEPEST * step:
-        return []
-    if max(values) < 0:
-        # a narrow interval between two marks
-        best = max(range(count + 1), key=lambda k: values[k])
-        top = _golden(function, marks[max(best - 1, 0)], marks[min(best + 1, count)])
-        marks = [marks[max(best - 1, 0)], top, marks[min(best + 1, count)]]
-        values = [function(m) for m in marks]
+    beside = [-math.inf, *values, -math.inf]
+    for k in reversed(range(count + 1)):
+        # beside a mark that stands over those on both sides there may be 0 and more
+        if -_STEEPEST * step <= values[k] < 0 and beside[k] <= values[k] > beside[k + 2]:
+            top = _golden(function, marks[max(k - 1, 0)], marks[min(k + 1, count)])
+            at = k + (top > marks[k])
+            marks.insert(at, top)
+            values.insert(at, function(top))
+    return marks, values
+
+
+def _positive(function: Callable[[float], float], low: float, high: float, step: float) -> list[tuple[float, float]]:
+    """The intervals in which a function is >= 0; ends are roots, the side that is >= 0."""
+    marks, values = _marked(function, low, high, step)
     ends: list[float] = [marks[0]] if values[0] >= 0 else []
     for (a, b), (fa, fb) in zip(pairwise(marks), pairwise(values), strict=True):
         if (fa >= 0) != (fb >= 0):

@@ -26,7 +26,7 @@ from geometry.gears.shifts.external import (
     state_of,
     usual_box,
 )
-from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_wear, legal_shifts
+from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_wear, legal_shifts, nearest_sum
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear
@@ -271,6 +271,30 @@ def test_proposals_beat_random_legal_shifts(teeth: tuple[int, int], wish: Requir
         if abs(one - two) < 0.01:
             assert min(one, two) <= wear.root_sliding[0] + 0.02
     assert legal > 20
+
+
+@pytest.mark.parametrize("teeth", [(12, 30), pytest.param((31, 81), marks=pytest.mark.heavy)], ids=str)
+def test_no_legal_shifts_beside_a_proposal_give_more(teeth: tuple[int, int]) -> None:
+    """In the corners of the contour, where legal intervals are narrower than what is looked at."""
+    pair = ShiftPair(*teeth, RACK)
+    found = greatest_contact_ratio(pair, WISH)
+    assert found is not None
+    about = [(found.first + i * 0.002, found.second + k * 0.002) for i in range(-10, 11) for k in range(-10, 11)]
+    legal = [state_of(pair, *shifts).contact_ratio for shifts in about if least_margin(pair, WISH, *shifts) >= 0]
+    assert legal
+    assert max(legal) <= found.contact_ratio + 1e-7
+
+
+def test_legal_shifts_between_the_lines_that_are_looked_at_are_found() -> None:
+    pair, most = ShiftPair(12, 30, RACK), 1.55709
+    found = greatest_contact_ratio(pair, replace(WISH, contact_ratio=most - 1e-4))
+    assert found is not None
+    assert found.margin >= 0
+    assert found.contact_ratio == pytest.approx(most, abs=1e-6)
+    # all of them lie within 0.001 of x1 + x2 = -0.3272, what is nearest to another sum too
+    near = nearest_sum(pair, replace(WISH, contact_ratio=most - 1e-4), 0.0)
+    assert near == pytest.approx(found.first + found.second, abs=1e-3)
+    assert greatest_contact_ratio(pair, replace(WISH, contact_ratio=most + 1e-5)) is None
 
 
 def test_a_centre_distance_gets_equal_sliding() -> None:
