@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
 from typing import Annotated, Literal
 
 from msgspec import Meta, convert
@@ -19,7 +20,7 @@ from geometry.base.nearest import kept
 from geometry.base.record import Record
 from geometry.base.tolerance import PLACED_MM
 from geometry.gears.planetary.assembly import Satellites, given_set, least_angle
-from geometry.gears.planetary.fitting import Fitting
+from geometry.gears.planetary.fitting import Fitting, gap_between
 from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, Scheme, ratio_of
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
@@ -189,16 +190,20 @@ def _settled(keys: PlanetarySetKeys) -> _Set:
     if one.carried_ratio == 1:
         raise ParameterError("teeth", keys.teeth, "transmits_nothing")
     mesh = _fitted if keys.shifts is None else _given_shifts
-    two = Fraction(0), Fraction(1, keys.satellites)
+
+    @cache
+    def meshed(other: PlanetarySet, apart: Fraction | None) -> tuple[float, Shifts]:
+        return mesh(keys, other, apart)
+
     try:
         places = Satellites(keys.satellites, keys.spacing, keys.identical).places(
-            one, lambda other: kept(lambda at: bool(mesh(keys, other, at)), two)
+            one, lambda other, apart: kept(lambda at: bool(meshed(other, at)), apart)
         )
     except ParameterError:
         # another number helps only where one alone has its meshes
-        mesh(keys, one, two[:1])
+        meshed(one, None)
         raise
-    distance, shifts = mesh(keys, one, places)
+    distance, shifts = meshed(one, least_angle(places))
     step = keys.face_width + keys.axial_gap
     heights = (0.0, 0.0, step, step) if scheme.double else (0.0, 0.0, 0.0, 0.0)
     items = (1, 2, 3, 4) if scheme.double else (1, 2, 2, 3)
@@ -217,10 +222,10 @@ def _hands(keys: PlanetarySetKeys, scheme: Scheme) -> tuple[Hand, Hand, Hand, Ha
     return first, rim, rim, rim if scheme.internal[1] else other[rim]
 
 
-def _fitted(keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]) -> tuple[float, Shifts]:
-    """Distance and shifts as ``calc planetary`` chooses them."""
+def _fitted(keys: PlanetarySetKeys, one: PlanetarySet, apart: Fraction | None) -> tuple[float, Shifts]:
+    """Distance and shifts as ``calc planetary`` chooses them; ``apart``: the least angle of satellites, turns."""
     beta = abs(math.radians(keys.helix_angle_deg))
-    fitting = Fitting(iso_53("A"), _WISH, least_angle(places), 0.0, keys.working_centre_distance, beta)
+    fitting = Fitting(iso_53("A"), _WISH, apart, 0.0, keys.working_centre_distance, beta)
     fit = fitting.fit(one)
     if fit is None:
         one_distance, other = (float(d) for d in one.distances)
@@ -230,8 +235,8 @@ def _fitted(keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, .
     return fit.distance, fit.shifts
 
 
-def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]) -> tuple[float, Shifts]:
-    """Shifts that the scene gives, held against one distance."""
+def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet, apart: Fraction | None) -> tuple[float, Shifts]:
+    """Shifts that the scene gives, held against one distance and the tips of satellites so far apart, turns."""
     given = keys.shifts or []
     if len(given) != len(keys.teeth):
         raise ParameterError("shifts", given, "one_shift_a_wheel", wheels=len(keys.teeth))
@@ -247,11 +252,16 @@ def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fract
         if value < 0:
             raise ParameterError("shifts", given, "shifts_leave_no_angle")
         found.append(float(reference) * math.cos(angle) / math.cos(inverse_involute(value)))
-    if keys.working_centre_distance is not None:
-        return keys.working_centre_distance, shifts
-    if abs(found[0] - found[1]) > PLACED_MM:
+    distance = keys.working_centre_distance or found[0]
+    if keys.working_centre_distance is None and abs(found[0] - found[1]) > PLACED_MM:
         raise ParameterError("shifts", given, "shifts_not_coaxial", first=found[0], second=found[1])
-    return found[0], shifts
+    rims = zip(one.modules, one.teeth[1:3], shifts[1:3], totals, one.distances, inside, strict=True)
+    for module, teeth, shift, total, reference, is_ring in rims:
+        height = 1 + shift - (0.0 if is_ring else max(total - (distance - float(reference)) / float(module), 0.0))
+        tip = float(module) * (teeth / (2 * math.cos(math.radians(keys.helix_angle_deg))) + height)
+        if gap_between(distance, tip, apart) < -PLACED_MM:
+            raise ParameterError("satellites", keys.satellites, "satellites_collide")
+    return distance, shifts
 
 
 def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:

@@ -12,6 +12,8 @@ from geometry.gears.planetary.sets import SCHEMES, PlanetarySet, Scheme
 
 # by how much teeth are changed for a set that can be assembled, and how many of these are tried
 _NEARBY, _TRIED = 4, 10
+# whether a set can be made with satellites so far apart, parts of a turn
+Works = Callable[[PlanetarySet, Fraction], bool]
 
 
 def given_set(
@@ -54,10 +56,8 @@ class Satellites(Record):
     identical: bool = True
     gap: Fraction = Fraction(0)
 
-    def places(
-        self, one: PlanetarySet, meshes: Callable[[PlanetarySet], bool] = lambda other: True
-    ) -> tuple[Fraction, ...]:
-        """Where they stand, parts of a turn; ``meshes``: whether other teeth, which are offered, can be made.
+    def places(self, one: PlanetarySet, works: Works | None = None) -> tuple[Fraction, ...]:
+        """Where they stand, parts of a turn; ``works``: of this set and of others that are offered, else by the teeth.
 
         Raises
         ------
@@ -65,34 +65,52 @@ class Satellites(Record):
             ``satellites``: their tips overlap, or they do not go in; names what would work.
         """
         n = self.number
+        works = works or (lambda other, apart: other.fits(apart, self.gap))
         equal = tuple(Fraction(k, n) for k in range(n))
         alike = one.spacing(n)
         free = one.scheme.double and not self.identical
         places = alike if self.spacing == "unequal" and alike is not None else equal
         apart = least_angle(places)
-        if apart is not None and not one.fits(apart, self.gap):
-            any_number = free or self.spacing == "unequal"
-            fitting = (k for k in range(one.most_satellites(self.gap), 0, -1) if any_number or one.places % k == 0)
-            raise ParameterError("satellites", n, "satellites_collide", Nearest(next(fitting), "at_most"))
+        if apart is not None and not works(one, apart):
+            raise ParameterError("satellites", n, "satellites_collide", lambda: self._fewer(one, works))
         if alike is None and (self.spacing == "unequal" or not free):
             raise ParameterError("satellites", n, "too_few_places", Nearest(one.places, "at_most"), places=one.places)
         if alike is not None and self.spacing == "equal" and not free and alike != equal:
-            degrees, teeth = ", ".join(f"{360 * float(p):.6g}" for p in alike), self._other_teeth(one, meshes)
+            degrees, teeth = ", ".join(f"{360 * float(p):.6g}" for p in alike), self._other_teeth(one, works)
             code = "satellites_do_not_divide"
             if teeth:
                 beside = least_angle(alike)
-                room = beside is None or one.fits(beside, self.gap)
+                room = beside is None or works(one, beside)
                 code = "satellites_not_assembled" if room else "satellites_take_other_teeth"
-            raise ParameterError("satellites", n, code, lambda: self._other_number(one), places=one.places,
+            raise ParameterError("satellites", n, code, lambda: self._other_number(one, works), places=one.places,
                                  teeth=teeth, spacing=degrees)  # fmt: skip
         return places
 
-    def _other_number(self, one: PlanetarySet) -> Nearest:
+    def _most(self, one: PlanetarySet, works: Works, limit: int) -> int:
+        """The most satellites up to a limit that keep apart where they are equally spaced."""
+        good, bad = 1, limit + 1
+        while bad - good > 1:
+            between = (good + bad) // 2
+            good, bad = (between, bad) if works(one, Fraction(1, between)) else (good, between)
+        return good
+
+    def _fewer(self, one: PlanetarySet, works: Works) -> Nearest:
+        """The most satellites below the wanted number that fit."""
+
+        def fit(number: int) -> bool:
+            if self.spacing == "equal":
+                return (one.scheme.double and not self.identical) or one.places % number == 0
+            apart = least_angle(one.spacing(number) or (Fraction(0), Fraction(0)))
+            return apart is None or works(one, apart)
+
+        return Nearest(next(k for k in range(self._most(one, works, self.number - 1), 0, -1) if fit(k)), "at_most")
+
+    def _other_number(self, one: PlanetarySet, works: Works) -> Nearest:
         """The number of satellites nearest to the wanted one that fits."""
-        fitting = [k for k in range(1, one.most_satellites(self.gap) + 1) if one.places % k == 0]
+        fitting = [k for k in range(1, self._most(one, works, 2 * self.number) + 1) if one.places % k == 0]
         return Nearest(min(fitting, key=lambda k: (abs(k - self.number), -k)))
 
-    def _other_teeth(self, one: PlanetarySet, meshes: Callable[[PlanetarySet], bool]) -> str:
+    def _other_teeth(self, one: PlanetarySet, works: Works) -> str:
         """The teeth nearby, coaxial without shifts, that take so many satellites, by ratio, then by change; or ""."""
         apart = Fraction(1, self.number)
         found = []
@@ -106,7 +124,7 @@ class Satellites(Record):
                     change = sum(abs(a - b) for a, b in zip(other.teeth, one.teeth, strict=True))
                     found.append((abs(other.carried_ratio - one.carried_ratio), change, other))
         nearby = (other for _, _, other in sorted(found, key=lambda item: item[:2])[:_TRIED])
-        return next((other.name for other in nearby if meshes(other)), "")
+        return next((other.name for other in nearby if works(other, apart)), "")
 
 
 def _coaxial(one: PlanetarySet, z1: int, z2: int, z2p: int) -> PlanetarySet | None:

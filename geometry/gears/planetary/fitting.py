@@ -211,6 +211,9 @@ class Fitting(Record):
     def _at(self, teeth: PlanetarySet, meshes: tuple[RimMesh, RimMesh], distance: float) -> Fit | None:
         if any(mesh.shift_total(distance) is None for mesh in meshes):
             return None
+        # tips reach the least at the least shift
+        if not all(self._clear(mesh, distance, min(self._rim_shifts(mesh))) for mesh in meshes):
+            return None
         if not teeth.scheme.double:
             good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x) for m in meshes))
             x = next(good, None)
@@ -235,8 +238,14 @@ class Fitting(Record):
         assert central is not None
         if abs(central) > 2 * _MOST_SHIFT or mesh.least_margin(self.wish, rim_shift, central) < -_ROUNDING:
             return False
+        return self._clear(mesh, distance, rim_shift)
+
+    def _clear(self, mesh: RimMesh, distance: float, rim_shift: float) -> bool:
+        """Whether the tips of neighbours keep apart."""
+        central = mesh.central_shift(distance, rim_shift)
+        assert central is not None
         tip, _ = mesh.tips(rim_shift, central)
-        return _gap(distance, tip, self.apart) >= self.least_gap - _ROUNDING
+        return gap_between(distance, tip, self.apart) >= self.least_gap - _ROUNDING
 
     def _with(self, meshes: tuple[RimMesh, RimMesh], distance: float, rims: tuple[float, float]) -> Fit:
         one, two = (mesh.central_shift(distance, x) for mesh, x in zip(meshes, rims, strict=True))
@@ -248,9 +257,9 @@ class Fitting(Record):
         x1, x2, x2p, x3 = shifts
         fit = Fit(meshes, distance, shifts, 0.0, self.least_gap, self.wish)
         tip = max(meshes[0].tips(x2, x1)[0], meshes[1].tips(x2p, x3)[0])
-        return replace(fit, gap=_gap(distance, tip, self.apart))
+        return replace(fit, gap=gap_between(distance, tip, self.apart))
 
 
-def _gap(distance: float, tip: float, apart: Fraction | None) -> float:
+def gap_between(distance: float, tip: float, apart: Fraction | None) -> float:
     """Between the tips of neighbours, mm; inf of one satellite alone."""
     return math.inf if apart is None else 2 * (distance * float(sine_of(apart)) - tip)

@@ -220,8 +220,12 @@ class _Page:
 
     def _assembled(self, one: PlanetarySet) -> tuple[Fraction, ...]:
         """Where the satellites of a given set stand; refused where they do not fit."""
-        wish = Satellites(self.keys.satellites, self.keys.spacing, self.keys.identical, exact(self.keys.least_gap))
-        places = wish.places(one)
+        gap = exact(self.keys.least_gap)
+
+        def works(other: PlanetarySet, apart: Fraction) -> bool:
+            return other.fits(apart, gap) or replace(self.fitting, apart=apart).fit(other) is not None
+
+        places = Satellites(self.keys.satellites, self.keys.spacing, self.keys.identical, gap).places(one, works)
         self.fitting = replace(self.fitting, apart=least_angle(places))
         return places
 

@@ -328,8 +328,11 @@ def test_a_refusal_names_the_key_of_the_recipe(keys: dict[str, Any], key: str, c
     [
         ([40, 40, 120], 3, "satellites_not_assembled"),
         ([13, 14, 42], 2, "satellites_not_assembled"),
-        ([22, 45, 112], 4, "satellites_take_other_teeth"),
-        ([25, 15, 55], 7, "satellites_take_other_teeth"),
+        # shifts make room for them
+        ([22, 45, 112], 4, "satellites_not_assembled"),
+        ([25, 15, 55], 7, "satellites_not_assembled"),
+        ([16, 10, 36], 6, "satellites_take_other_teeth"),
+        ([20, 10, 40], 7, "satellites_take_other_teeth"),
     ],
 )
 def test_teeth_spacing_and_number_that_are_offered_for_satellites_that_do_not_go_in_are_built(
@@ -344,6 +347,50 @@ def test_teeth_spacing_and_number_that_are_offered_for_satellites_that_do_not_go
         scene(teeth=teeth, satellites=satellites, spacing="unequal")
     else:
         assert refusal(teeth=teeth, satellites=satellites, spacing="unequal").code == "satellites_collide"
+
+
+@pytest.mark.parametrize(
+    ("teeth", "satellites", "shift", "room"),
+    [
+        # by the teeth alone tips of neighbours touch: half a module of shift makes them overlap by 1 mm, or keep 0.6
+        ([17, 13, 43], 6, 0.5, -1.0),
+        ([17, 13, 43], 6, -0.3, 0.6),
+        ([33, 30, 93], 6, -0.2, -0.1),
+        ([33, 30, 93], 6, -0.3, 0.1),
+    ],
+)
+def test_neighbours_are_judged_by_the_tips_that_shifts_leave_them(
+    teeth: list[int], satellites: int, shift: float, room: float
+) -> None:
+    """Before, by the teeth alone: tips that overlap were made, tips that keep apart were refused."""
+    keys = {"teeth": teeth, "module": 1.0, "shaft_diameter": 3.0, "pin_diameter": 3.0}
+    assert (sum(teeth[:2])) * math.sin(math.pi / satellites) - (teeth[1] + 2 + 2 * shift) == pytest.approx(room)
+    given = {**keys, "shifts": [-shift, shift, shift]}
+    if room > 0:
+        scene(**given, satellites=satellites)
+        return
+    found = refusal(**given, satellites=satellites)
+    assert (found.key, found.code) == ("assemblies[1].satellites", "satellites_collide")
+    assert found.nearest is not None
+    scene(**given, satellites=found.nearest.value)
+
+
+def test_shifts_make_room_for_neighbours() -> None:
+    """By the teeth the tips of six satellites would overlap by half a module; shifts that keep all were not sought."""
+    made = scene(teeth=[33, 30, 93], satellites=6)
+    parts, _ = make_parts(made, "t")
+    circle, tip = parts["carrier"].keys.pin_circle_diameter, 2 * parts["satellite"].thing.tip_radius
+    assert circle * math.sin(math.pi / 6) - tip >= -1e-9
+    assert 2.0 * (63 * math.sin(math.pi / 6) - 32) == pytest.approx(-1.0)
+
+
+def test_fewer_unequally_spaced_satellites_are_offered_where_neighbours_overlap() -> None:
+    """The number that fits where they are equally spaced was tried alone, and none was told."""
+    keys = {**DAVID, "teeth": [19, 39, 26, 32], "spacing": "unequal", "shaft_diameter": 3.0}
+    found = refusal(**keys, satellites=6)
+    assert found.code == "satellites_collide"
+    assert found.nearest is not None
+    scene(**keys, satellites=found.nearest.value)
 
 
 @pytest.mark.parametrize("keys", [{"teeth": [12, 12, 36]}, {**DAVID, "teeth": [50, 30, 20, 60]}])
