@@ -374,8 +374,10 @@ def _parser(told: Words) -> Parser:
     calc.add_argument("topic", metavar=shown("TOPIC"), help=known)
     asked = told.text("a scene, or keys as in scenes")
     calc.add_argument("words", nargs="*", metavar=shown("SCENE | KEY=VALUE"), help=asked)
-    forms = told.text("text, md, html, json, or the tables alone as csv (default: text)")
-    calc.add_argument("--format", default="text", metavar="F", help=forms)
+    forms = told.text(
+        "text, md, html, json, or the tables alone as csv (default: as the file of --out ends, else text)"
+    )
+    calc.add_argument("--format", metavar="F", help=forms)
     listed = told.text("print every key of the topic with unit, range and default")
     calc.add_argument("--keys", action="store_true", help=listed)
     calc.set_defaults(several=("words", str))
@@ -724,6 +726,7 @@ def _schema(options: argparse.Namespace) -> int:
 
 def _calc(options: argparse.Namespace) -> int:
     from exporters.command.new import topic_keys
+    from exporters.documents.render import form_of
     from exporters.documents.topics import calculate, keys_of_topic
     from parts.base.readback import ReadError
 
@@ -731,8 +734,9 @@ def _calc(options: argparse.Namespace) -> int:
     if options.keys:
         _page(topic_keys(options.topic, *keys_of_topic(options.topic), options.language or ENGLISH), options)
         return DONE
+    form = options.format or form_of(options.out)
     try:
-        text = calculate(options.topic, options.words, options.format, options.language)
+        text = calculate(options.topic, options.words, form, options.language)
     except ReadError as error:
         print(f"higherpair: {error}", file=sys.stderr)
         return FAILED

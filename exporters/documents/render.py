@@ -6,6 +6,7 @@ import html
 import json
 import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from parts.base.texts import N_, Words, words
@@ -20,6 +21,12 @@ SPOKEN = ("text", "md", "html", "json")
 FORMATS = (*SPOKEN, "csv")
 # the heads of a page's columns
 _HEADS = (N_("quantity"), N_("formula and numbers"), N_("result"), N_("source"))
+
+
+def form_of(file: Path | None) -> str:
+    """The one of ``FORMATS`` that a file's ending tells, else text."""
+    ending = "" if file is None else file.suffix[1:].lower()
+    return ending if ending in FORMATS else {"htm": "html"}.get(ending, "text")
 
 
 def render(sheet: Sheet, form: str, language: str) -> str:

@@ -78,7 +78,7 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
     plain = "" if word is None else re.sub("[ _-]+", "_", word.lower())
     if plain in SYNONYMS and word not in known:
         # letters lead such a word astray
-        match = [name for name in SYNONYMS[plain] if name in known]
+        match = [name for name in SYNONYMS[plain] if name.partition(".")[0] in known]
     else:
         # among many words some have half of its letters by chance, and so has one of two letters that ends in one
         least = 0.6 if len(known) > _LONG else 0.5

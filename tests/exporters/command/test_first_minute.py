@@ -129,6 +129,22 @@ def test_a_file_that_stands_is_told_before_the_page_is_made(tmp_path: Path, caps
     assert "exists already" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(("name", "begins"), [
+    ("p.html", "<!DOCTYPE html>"), ("p.HTM", "<!DOCTYPE html>"), ("p.md", "# External gear"), ("p.json", "{"),
+    ("p.csv", "higherpair"), ("p.txt", "External gear"), ("p", "External gear"),
+])  # fmt: skip
+def test_a_page_has_the_form_that_its_file_s_ending_tells(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, begins: str
+) -> None:
+    """Unless one is asked for; tables as CSV are refused where there are none."""
+    words = ("calc", "spur", "module=2", "number_of_teeth=23", "--out")
+    assert run(*words, tmp_path / name) == (2 if name == "p.csv" else 0)
+    told = capsys.readouterr().err if name == "p.csv" else (tmp_path / name).read_text(encoding="utf-8")
+    assert told.startswith(begins)
+    assert run(*words, tmp_path / f"text.{name}", "--format", "text") == 0
+    assert (tmp_path / f"text.{name}").read_text(encoding="utf-8").startswith("External gear")
+
+
 @pytest.mark.parametrize("command", [("new", "spur_gear"), ("schema",), ("calc", "gear-pair", "practicum_pair")])
 def test_no_page_is_written_over_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], command: tuple[str, ...]
@@ -199,7 +215,8 @@ def test_a_key_tells_its_own_meaning(capsys: pytest.CaptureFixture[str]) -> None
     ("words", "meant"),
     [
         ("spur m=2", "module"), ("spur z=20", "number_of_teeth"), ("spur x=0.3", "profile_shift_coefficient"),
-        ("spur beta=10", "helix_angle_deg"), ("gear-pair z1=20", "first"),
+        ("spur beta=10", "helix_angle_deg"), ("gear-pair z1=20", "first.number_of_teeth"),
+        ("gear-pair x2=0.5", "second.profile_shift_coefficient"),
         ("gear-pair aw=90", "working_centre_distance"),
         ("worm z1=2", "number_of_starts"), ("worm q=10", "diameter_quotient"), ("bevel z2=40", "mate_number_of_teeth"),
         ("bevel mate_teeth=40", "mate_number_of_teeth"),

@@ -612,7 +612,7 @@ def test_words_of_the_language_that_is_not_told_are_words_too(where: str, table:
     assert (caught.value.key, caught.value.code) == (key, "wrong_type")
 
 
-@pytest.mark.parametrize("asked", ["ua", "ukr"])
+@pytest.mark.parametrize("asked", ["ua", "UA", "ukr", "Ukrainian"])
 def test_a_language_of_a_command_that_is_none_is_refused_in_the_one_that_was_meant(
     asked: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
