@@ -16,7 +16,8 @@ from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, row
 from parts.pages.inputs import SceneKeys, given
 
 _GROOVE = ("pulley_groove_depth", "groove_floor_width", "groove_corner_width", "groove_angle_deg",
-           "groove_floor_radius", "groove_flank_radius", "flank_centre_offset", "groove_tip_radius")  # fmt: skip
+           "greatest_root_radius", "groove_floor_radius", "groove_flank_radius", "flank_centre_offset",
+           "groove_tip_radius")  # fmt: skip
 
 
 def part_drawing(subject: Subject) -> PartDrawing:

@@ -425,6 +425,19 @@ phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_"
 """
 
 
+@pytest.mark.parametrize("belt", ["XL", "T5", "HTD 8M", "GT2"])
+def test_a_pulley_tells_every_size_of_its_groove(belt: str) -> None:
+    """The radius of the roots was missing, which is nearly all of an HTD groove."""
+    part = f'[parts.a]\nkind = "timing_pulley"\nbelt = "{belt}"\nnumber_of_teeth = 30\n'
+    ((_, table, _),) = tables(belt, part + '[[exports]]\nformat = "dxf"\n').values()
+    page = json.loads(calculate("pulley", [f"belt={belt}", "number_of_teeth=30"], "json", "en"))
+    names = list(page["values"])
+    groove = set(names[names.index("pulley_groove_depth") :]) - {"land_width"}
+    symbols = {step["symbol"] for step in page["steps"] if step["name"] in groove}
+    assert len(symbols) == len(groove) > 4
+    assert symbols <= {row.symbol for rows in table.parts for row in rows}
+
+
 def test_a_sprocket_names_its_chain_and_a_plate_of_a_groove_cam_what_its_columns_are() -> None:
     """GOST 2.408; the plate had the polar angle of a profile over columns of the roller's centre."""
     made = [table for _, table, _ in tables("chain_drive").values()]
