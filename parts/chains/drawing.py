@@ -20,6 +20,8 @@ _GAP = ("seating_radius", "seating_angle_deg", "chain_flank_radius", "gap_radius
 _CHAIN = ("chain_pitch", "chain_roller_diameter", "chain_strands")
 _MEASURED = ("sprocket_over_pins", "root_chord")
 _CIRCLES = ("chain_pitch_diameter", "chain_root_diameter")
+# of the chain, for information: between and beside its plates the teeth go
+_PLATES = ("chain_plate_height", "chain_inner_width")
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -65,6 +67,6 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
         (
             (teeth, *named, *chain, form, *rows_of(page, _GAP), *grade_rows(keys.accuracy)),
             tuple(measured),
-            (*rows_of(page, _CIRCLES), *beside, *others),
+            (*rows_of(page, _CIRCLES), *rows_of(page, _PLATES), *beside, *others),
         )
     )

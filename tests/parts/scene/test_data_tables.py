@@ -248,6 +248,9 @@ def test_a_sprocket_tells_its_grade_and_the_limits_of_what_is_measured() -> None
     assert value_text(rows["accuracy grade"], words("en")) == "B GOST 591-69"
     limits = {row.symbol: row.deviations for row in rows.values() if row.deviations}
     assert limits == {"M_R": (0.0, -0.25), "L_x": (0.0, -0.25)}
+    # height of the inner plates of the chain, and what is between them
+    chain = {row.symbol: row.value for row in table.parts[2]}
+    assert (chain["h_2"], chain["b_1"]) == (11.81, 7.75)
 
 
 @pytest.mark.parametrize(
