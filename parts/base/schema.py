@@ -139,6 +139,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         if may_be_parted and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
             return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
         is_text = {*wrong_type.group(1).split(" | ")} - {"null"} == {"str"}
+        if is_text and isinstance(value, list) and (listed_in := re.match(r"(exports|mates|drives)\[", where)):
+            return SceneError(source, where, value, "one_for_each", None, table=listed_in[1])
         if is_text and type(value) in (int, float) and (not words or format_value(value) in words):
             quoted = format_value(format_value(value))
             code = "number_not_quoted" if allowed is None else "number_not_quoted_of"

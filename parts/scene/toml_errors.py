@@ -18,6 +18,7 @@ SENTENCES = tuple(sentence for (sentence,) in rows_of(__file__, "toml_errors"))
 _TYPOGRAPHIC = "“”„«»‘’`"
 _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*)")
 # a list without brackets, a number with its unit, a key that is not in Latin letters
+_BARE_WORDS = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(\"[^\"]*\"(?:\s*[,;]\s*\"[^\"]*\")+)\s*\)?\s*(?:#.*)?")
 _BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*\)?\s*(?:#.*)?")
 _UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)(\s*)(?:%|[^\W\d_]+(?:/[^\W\d_]+)?[²³]?\.?)\s*(?:#.*)?")
 # a number, text or list that would be one but for a colon, a second sign, a lone point, a first 0, a printed minus or
@@ -97,6 +98,10 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "hidden_character", {"line": number, "letter": f"U+{ord(hidden):04X}"}
     if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
         return "key_twice", {"line": number, "key": found[1]}
+    if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*\[\[([\w-]+)\]\]", line)):
+        rows = enumerate(text.split("\n")[: number - 1], 1)
+        first = next((n for n, row in rows if re.match(rf"\s*\[{found[1]}\]", row)), number)
+        return "single_brackets", {"line": first, "table": found[1]}
     if why.startswith("Cannot declare") and (found := _TABLE.fullmatch(line)):
         return "table_twice", {"line": number, "table": found[1].strip()}
     if why.startswith("Invalid statement") and _COMMENT.match(line):
@@ -112,6 +117,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
     if (found := _SHARE.fullmatch(line)) and (by := float(found[4])):
         value = f"{float(found[2]) * by if found[3] == '*' else float(found[2]) / by:.12g}"
         return "not_calculated", {"line": number, "key": found[1], "value": value}
+    if found := _BARE_WORDS.fullmatch(line):
+        return "no_brackets", {"line": number, "key": found[1], "value": ", ".join(re.findall(r'"[^"]*"', found[2]))}
     if (found := _QUOTES_WITHIN.fullmatch(line)) and found[2] in found[3]:
         bare = found[3].strip(found[2])
         other = "\"'"[found[2] == '"'] if found[2] in bare else found[2]

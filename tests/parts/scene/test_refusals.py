@@ -94,6 +94,8 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "missing kind": ({"kind": None}, {}, "parts.gear.kind", "", "spur_gear"),
     "missing module": ({"module": None}, {}, "parts.gear.module", "", "missing"),
     "unknown format": ({}, {"format": '"dwg"'}, "exports[1].format", '"dwg"', '"dxf", "svg"'),
+    "formats in one export": (
+        {}, {"format": '["dxf", "stl"]'}, "exports[1].format", '["dxf", "stl"]', "write [[exports]] for each"),
     "missing format": ({}, {"format": None}, "exports[1].format", "", '"dxf"'),
     "unknown rack": ({"basic_rack": '"ISO 53 E"'}, {}, "basic_rack", '"ISO 53 E"', "ISO 53 A"),
     "rack is a number": ({"basic_rack": "53"}, {}, "basic_rack", "53", "table"),
@@ -519,12 +521,14 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("frame = ні  # without", "line 2: write frame = false"),
         ("lift = 30 mm", "line 2: numbers stand without units: lift = 30"),
         ("lift = 0.1 мм # play", "line 2: numbers stand without units: lift = 0.1"),
+        ('tools = "a", "b"', 'line 2: a list stands in brackets: tools = ["a", "b"]'),
         ("teeth = 24, 30, 84", "line 2: a list stands in brackets: teeth = [24, 30, 84]"),
         ("підйом = 30.0", "line 2: підйом is no key: keys are Latin"),
         ("[parts.колесо]", "line 2: колесо is no name: letters A to Z, digits, _ and -; what people"),
         ("[[ шестерня ]]  # one", "line 2: шестерня is no name"),
         ("[parts.my wheel]", "line 2: my wheel is no name"),
         ("[parts.wheel+]", "line 2: wheel+ is no name"),
+        ('[exports]\nformat = "dxf"\n[[exports]]\nformat = "stl"', "line 2: write [[exports]]"),
         ("module = 2.0\nmodule = 3.0", "line 3: module stands there a second time; remove one"),
         (
             "[parts.g]\n[parts.g]  # too",
