@@ -115,6 +115,8 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
         one, two = first.thing, second.thing
         same_sizes(("pitch", "roller_diameter"), two.chain, one.chain, "not_of_the_chain")
         same_size("strands", two.strands, one.strands, "not_of_the_chain")
+        if one.strands > 1:
+            same_sizes(("transverse_pitch",), two.chain, one.chain, "not_of_the_chain")
         mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance)
         return ChainMating(
             *self.joined(keys),

@@ -108,6 +108,15 @@ def test_drives_that_cannot_be_are_refused_with_what_works(mate: Keys, two: Keys
         placed(mate | {key.rpartition(".")[2]: refused.value.nearest.value}, two=two)
 
 
+def test_rows_of_both_stand_as_far_apart() -> None:
+    """Those of 2ПР-19,05-72 do not: as it was, one chain was told to go into rows 22.78 and 25.5 mm apart."""
+    one, two = SMALL | {"chain": "2ПР-19,05-64"}, LARGE | {"chain": "2ПР-19,05-72"}
+    with pytest.raises(SceneError) as refused:
+        placed({"number_of_links": 80}, one, two)
+    assert (refused.value.key, refused.value.code) == ("mates[1]: parts.b.transverse_pitch", "not_of_the_chain")
+    placed({"number_of_links": 80}, one, two | {"chain": "12A-2"})
+
+
 def test_a_row_of_teeth_takes_one_chain() -> None:
     """As it was: both lay in one plane, across each other. A sprocket of its own on the same shaft takes the other."""
     parts = {"a": {}, "b": {}, "c": {"part": "a"}, "d": {"part": "b"}}
