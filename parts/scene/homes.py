@@ -38,6 +38,11 @@ def at_home(refusal: SceneError, raw: Tables, plain: Mapping[str, type[Struct]])
     if own == "defaults" and has_key(export, key):
         return refusal
     within = len(steps) > len(("parts", "ID", "key"))
+    for header, kinds in homes().items():
+        # a table of what has the key itself
+        kind = looked_up(raw, [*steps[:2], "kind"]) if within and own == _table(header) else None
+        if isinstance(kind, str) and kind in kinds and has_key(kinds[kind].keys, key):
+            return _told(refusal, key, [f"[{own}.{steps[1]}]" if own == "parts" else header])
     for name in (key, *alike):
         found: list[Text] = [*(() if within else _inside(name, raw, steps))]
         if own != "defaults" and defaults_take(name, raw, export):

@@ -48,6 +48,8 @@ MISPLACED = (
     # a table of the part's own is told first
     ("[parts.a]", "count = 5", "count belongs to holes or spokes or [instances.NAME]"),
     ("[parts.a]", "diameter_quotient = 2", 'diameter_quotient belongs to [parts.NAME] of kind "worm_wheel", "worm"'),
+    # in a table of a part that has the key itself
+    ("[parts.a]", "hub = { diameter = 14, module = 2 }", "parts.a.hub.module = 2: module belongs to [parts.a]"),
     # a near spelling of its own table's, or another book's word, is told before other tables
     ("[parts.a]", "face_widht = 2.0", "did you mean face_width?"),
     ("[parts.a]", "thickness = 2.0", "did you mean face_width?"),
