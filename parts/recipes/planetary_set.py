@@ -228,10 +228,13 @@ def _fitted(keys: PlanetarySetKeys, one: PlanetarySet, apart: Fraction | None) -
     fitting = Fitting(iso_53("A"), _WISH, apart, 0.0, keys.working_centre_distance, beta)
     fit = fitting.fit(one)
     if fit is None:
+        from parts.mates.pages.planetary import broken_told
+
         one_distance, other = (float(d) for d in one.distances)
         # meshes of one distance have it, and break what else a set keeps
-        code = "no_shifts_keep_all" if math.isclose(one_distance, other) else "no_shifts_fit"
-        raise ParameterError("teeth", keys.teeth, code, first=one_distance, second=other)
+        broken = broken_told(fitting, one) if math.isclose(one_distance, other) else []
+        code = "no_shifts_keep_all" if broken else "no_shifts_fit"
+        raise ParameterError("teeth", keys.teeth, code, first=one_distance, second=other, broken=broken)
     return fit.distance, fit.shifts
 
 

@@ -145,15 +145,21 @@ class Fit(Record):
         return one.state(x2, x1), two.state(x2p, x3)
 
     def broken(self) -> tuple[tuple[Margin, ...], tuple[Margin, ...]]:
-        """The conditions that each mesh does not keep, and with the first the neighbours' gap."""
+        """The conditions that each mesh does not keep, and with the first the neighbours' gap.
+
+        Without a working pressure angle there is nothing else to judge.
+        """
         x1, x2, x2p, x3 = self.shifts
         one, two = self.meshes
-        first = one.margins(self.wish, x2, x1), two.margins(self.wish, x2p, x3)
-        kept = tuple(tuple(m for m in found if not m.margin >= -_ROUNDING) for found in first)
-        if not self.gap >= self.least_gap - _ROUNDING:
-            near = Margin.above("neighbours", self.gap, self.least_gap)
-            return (*kept[0], near), kept[1]
-        return kept[0], kept[1]
+
+        def broken(mesh: RimMesh, rim: float, central: float) -> tuple[Margin, ...]:
+            found = tuple(m for m in mesh.margins(self.wish, rim, central) if not m.margin >= -_ROUNDING)
+            return found[:1] if found and found[0].name == "working_angle" else found
+
+        first, second = broken(one, x2, x1), broken(two, x2p, x3)
+        if self.gap < self.least_gap - _ROUNDING:
+            return (*first, Margin.above("neighbours", self.gap, self.least_gap)), second
+        return first, second
 
     @property
     def diameter(self) -> float:

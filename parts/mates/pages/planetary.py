@@ -19,6 +19,7 @@ from geometry.gears.planetary.sets import (
     SCHEMES,
     Link,
     PlanetarySet,
+    Scheme,
     Search,
     coaxial_modules,
     found_sets,
@@ -106,6 +107,22 @@ def _fault(name: str) -> Message:
     return message(owner, fault=filled(FAULTS[condition]))
 
 
+def broken_told(fitting: Fitting, one: PlanetarySet) -> list[Message]:
+    """What each mesh of a set breaks without shifts of the rims; none of one that breaks nothing."""
+    meshes = zip(meshes_of(one.scheme), fitting.plain(one).broken(), strict=True)
+    text = N_("mesh {wheels} without shifts of the rims: {names}")
+    return [
+        message(text, wheels=wheels, names=listed([_fault(m.name) for m in broken]))
+        for wheels, broken in meshes
+        if broken
+    ]
+
+
+def meshes_of(scheme: Scheme) -> tuple[str, str]:
+    """The wheels of both meshes, as they are told."""
+    return "1-2", "2'-3" if scheme.double else "2-3"
+
+
 class _Page:
     """The sheet of one wish."""
 
@@ -121,7 +138,7 @@ class _Page:
         self.rim = "2'" if self.scheme.double else "2"
         # those of the scheme, by their place among all
         self.wheels = {k: wheel for k, wheel in enumerate(_WHEELS) if self.scheme.double or wheel != "2'"}
-        self.meshes = "1-2", f"{self.rim}-3"
+        self.meshes = meshes_of(self.scheme)
         self.modules = exact(keys.module), exact(keys.second_module or keys.module)
         rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
         self.helix = math.radians(abs(keys.helix_angle_deg))

@@ -234,3 +234,10 @@ def test_a_refusal_waits_for_no_search_of_shifts(monkeypatch: pytest.MonkeyPatch
     # rack A: 2.25 m tan(alpha) of each flank and the flat between them are pi m / 2 at least
     assert caught.value.nearest is not None
     assert caught.value.nearest.value == pytest.approx(math.degrees(math.atan(math.pi / 4 / 1.25)), abs=2e-4)
+
+
+def test_without_a_working_pressure_angle_nothing_else_is_told_as_broken() -> None:
+    """a cos(alpha_w) = 24 cos 20 deg = 22.55 mm: at 22 mm 19 conditions were told, an addendum of 0.75 over 1.19."""
+    told = [note for note in calculated("teeth=[24,24,72]", "working_centre_distance=22")["notes"] if "mesh" in note]
+    ending = "without shifts of the rims: no working pressure angle"
+    assert told == [f"mesh 1-2 {ending}", f"mesh 2-3 {ending}"]

@@ -324,6 +324,20 @@ def test_a_refusal_names_the_key_of_the_recipe(keys: dict[str, Any], key: str, c
 
 
 @pytest.mark.parametrize(
+    ("keys", "broken"),
+    [
+        # z < 2 / sin(20 deg)^2 = 17.1 is undercut; at 44 mm a cos(alpha_w) = 45.1 mm
+        ({"teeth": [10, 10, 30], "satellites": 1}, "mesh 1-2 without shifts of the rims: undercut of the satellite"),
+        ({"teeth": [24, 24, 72], "working_centre_distance": 44.0}, "mesh 2-3 without shifts of the rims: no working"),
+    ],
+)
+def test_shifts_that_are_not_found_are_refused_with_the_conditions_that_are_not_kept(
+    keys: dict[str, Any], broken: str
+) -> None:
+    assert broken in str(refusal(**keys))
+
+
+@pytest.mark.parametrize(
     ("teeth", "satellites", "code"),
     [
         ([40, 40, 120], 3, "satellites_not_assembled"),
