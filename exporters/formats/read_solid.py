@@ -66,6 +66,14 @@ class Model(Record, eq=False, dict=True):
         """The spans of all uses, and the use that each belongs to."""
         return spans_of(self.curves, self.uses.edge)
 
+    @cached_property
+    def owners(self) -> Index:
+        """Which of ``patches`` each face is of; -1: of none."""
+        found = np.full(len(self.faces), -1)
+        for number, patches in enumerate(self.patches):
+            found[patches.faces] = number
+        return found
+
     @property
     def bounds(self) -> float:
         """The length of the bounds of all faces, mm."""

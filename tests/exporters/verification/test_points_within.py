@@ -38,12 +38,20 @@ TURNED = {
 }
 
 
+# a table of so few rows has as many surfaces, all of other knots
+BARREL: dict[str, Any] = {
+    "kind": "barrel_cam", "form": "end", "outer_diameter": 60.0, "groove_depth": 7.0, "roller_diameter": 10.0,
+    "motion_table": [[0.0, 0.0], [50.0, 2.0], [120.0, 6.0], [200.0, 5.0], [290.0, 1.0]], "end_margin": 14.0,
+}  # fmt: skip
+
+
 @cache
 def read(name: str) -> tuple[Model, Any]:
-    """The model of a turned part's file, and its exact body."""
+    """The model of a turned part's file, or of a barrel's, and its exact body."""
     import tempfile
 
-    body = make_parts(scene_from_dict({"parts": {"p": TURNED[name]}}, "t", "t"), "t")[0]["p"].body(0.0)
+    keys = TURNED.get(name, BARREL)
+    body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "p.step"
         file.write_text(step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm()), "ascii")
@@ -78,6 +86,24 @@ def test_the_ends_of_a_ball_are_reached() -> None:
     assert np.linalg.norm(points, axis=1) == pytest.approx(np.full(len(points), 4.0), abs=1e-9)
     assert points[:, 2].min() < -2.5
     assert points[:, 2].max() > 2.5
+
+
+def test_a_spline_face_is_looked_for_in_its_own_surface_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before, in those of all faces: the square of a motion table's rows."""
+    model, body = read("barrel")
+    assert len(model.patches) >= 4
+    asked, isin = [], np.isin
+
+    def counted(these: Any, those: Any) -> Any:
+        asked.append(these)
+        return isin(these, those)
+
+    monkeypatch.setattr(np, "isin", counted)
+    for patches in model.patches:
+        for face in patches.faces.tolist():
+            points = inner_points(model, np.array([face]))
+            assert min(float(np.abs(s.distance(points)).max()) for s in body.surfaces) < 1e-6
+    assert len(asked) == sum(len(patches.faces) for patches in model.patches)
 
 
 @pytest.mark.parametrize("name", ["hub", "chamfered", "plate"])
