@@ -205,7 +205,8 @@ def _profile(curves: list[Curve]) -> Profile:
     return Profile(tuple(Segment(c, Label.CAM if isinstance(c, DevelopedEdge) else Label.BODY) for c in curves))
 
 
-@lru_cache(maxsize=512)
+# both edges of a table of 2000 rows: fewer places would lose each one before it is asked for again
+@lru_cache(maxsize=4096)
 def _edge_curves(cam: BarrelCam, piece: LawPiece, side: int, middle: float) -> tuple[Curve, ...]:
     """The developed edge over one piece, split where its curvature changes sign or trend; dwells are straight."""
     whole = DevelopedEdge(cam, piece, side, middle, piece.start, piece.end)
