@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 from exporters.production.check_lines import check_lines, names_of
 from exporters.production.jobs import Written
 from exporters.production.plan import Plan
+from parts.base.part import Part
 from parts.base.texts import N_, Words, words
 from parts.texts.findings import finding_message
 
@@ -42,7 +43,9 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
 
         kept = kept_lines(read_report(folder), language)
         remarks += [told.text("FAILED: {why}", why=line) for line in kept]
-    remarks += dict.fromkeys(_remarks(written, told))
+    left = {one.what for one in plan.left_out}
+    made = [part for part in plan.parts.values() if f"parts.{part.id}" not in left]
+    remarks += dict.fromkeys(_remarks(written, made, told))
     remarks += check_lines(built.checks, language, names_of(plan.scene.instances, plan.parts))
     left_out = [(one.what, one.why) for one in plan.left_out if not one.as_asked]
     remarks += [told.text("left out: {what}: {why}", what=what, why=told.say(why)) for what, why in left_out]
@@ -76,7 +79,8 @@ def _state(failures: Sequence[str], measured: Mapping[str, float]) -> str:
     return N_("FAILED") if failures else N_("ok") if measured else N_("not verified")
 
 
-def _remarks(written: Sequence[Written], told: Words) -> list[str]:
+def _remarks(written: Sequence[Written], parts: Sequence[Part], told: Words) -> list[str]:
+    """What failed, and what was noticed on files and parts: of one on a board or a sheet no file tells its own."""
     lines = []
     for item in written:
         lines += [told.text("FAILED: {why}", why=f"{item.job.path}: {told.say(failure)}") for failure in item.failures]
@@ -85,6 +89,9 @@ def _remarks(written: Sequence[Written], told: Words) -> list[str]:
     for item in written:
         for finding in item.findings:
             labels.setdefault(told.say(finding_message(finding)), []).extend(item.job.about(finding))
+    for part in parts:
+        for finding in part.findings:
+            labels.setdefault(told.say(finding_message(finding)), []).append(part.id)
     for text, own in labels.items():
         names = ", ".join(dict.fromkeys(own))
         lines.append(told.text("note: {text}", text=f"{names}: {text}"))

@@ -307,3 +307,19 @@ def test_a_number_offered_for_a_default_works(tmp_path: Path, capsys: pytest.Cap
     assert offer is not None, said
     (tmp_path / "x.toml").write_text(text.format(offer[1]))
     assert main(["check", str(tmp_path / "x.toml")]) == 0
+
+
+@pytest.mark.parametrize("export", [
+    'format = "dxf"', 'format = "dxf"\npurpose = "board"', 'format = "step"\nassembly = true',
+    'format = "pdf"\npurpose = "model"',
+])  # fmt: skip
+def test_a_poor_part_is_told_whatever_file_it_is_in(
+    export: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of twelve teeth undercut, told once; of a board, an assembly or a sheet the report alone said so."""
+    part = '[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 12\nface_width = 3.0\n'
+    board = "[boards.p]\nwidth = 60.0\nheight = 60.0\nthickness = 3.0\n" if "board" in export else ""
+    (file := tmp_path / "x.toml").write_text(f"{part}{board}[[exports]]\n{export}\n", encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--no-verify"]) == 0
+    told = [line for line in capsys.readouterr().out.splitlines() if "undercut" in line]
+    assert told == ["note: a: the tooth is undercut: profile shift 0.0000 is below x_min = 0.2981"]
