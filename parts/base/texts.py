@@ -167,8 +167,9 @@ class Words(NamedTuple):
 
     def decimal(self, number: str) -> str:
         """A number, or words with numbers, as the language prints it on drawings: 0.5 or 0,5, with a true minus."""
-        # points of indices stay, and hyphens of ranges and names
-        told = re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), number)
+        # points of indices stay, and hyphens of ranges and names; nobody reads powers of ten as 8.47e-06 on paper
+        told = re.sub(r"\b\d+(?:\.\d+)?e[-+]0\d\b", _written_out, number)
+        told = re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), told)
         return re.sub(r"(?<![\w)}\]-])-(?=\d)", MINUS, told)
 
     def phrase(self, said: str) -> str:
@@ -187,6 +188,12 @@ class Words(NamedTuple):
         if told != formula and self.term("decimal point", ".") == ",":
             told = told.replace(", ", "; ")
         return re.sub(r"(?<![^\s(|{\[/·])-(?=[\w(√∛|\s])", MINUS, told)
+
+
+def _written_out(found: re.Match[str]) -> str:
+    """A number with a power of ten, with all its zeros."""
+    mantissa, _, power = found[0].partition("e")
+    return f"{float(found[0]):.{max(len(mantissa.partition('.')[2]) - int(power), 0)}f}"
 
 
 @cache

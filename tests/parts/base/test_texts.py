@@ -65,9 +65,16 @@ def test_numbers_in_words_have_the_mark_of_the_language_and_names_do_not() -> No
     assert words("en").phrase(said) == said.replace("-0.5", "\N{MINUS SIGN}0.5")
 
 
+def test_printed_powers_of_ten_are_written_out() -> None:
+    """Those of Python's own, not what a source prints, nor an index, nor what rounding leaves of nothing."""
+    said = "8.47e-06 mm, 1e+05, -2.5e-07, 1.06e6, e-06, 3.1e-17"
+    told = "0,00000847 mm, 100000, \N{MINUS SIGN}0,00000025, 1,06e6, e-06, 3,1e-17"
+    assert words("uk").decimal(said) == told
+
+
 def test_printed_numbers_below_zero_have_a_true_minus() -> None:
     assert words("uk").decimal("x = -0.5 (-3)") == "x = \N{MINUS SIGN}0,5 (\N{MINUS SIGN}3)"
-    for name in ("08B-1", "9-36", "1e-05", "D-8x32", "5 - 3", "2026-11-29"):
+    for name in ("08B-1", "9-36", "1e-17", "D-8x32", "5 - 3", "2026-11-29"):
         assert words("en").decimal(name) == name
 
 
