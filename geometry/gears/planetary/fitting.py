@@ -1,8 +1,8 @@
 """The shifts that bring both meshes of a planetary set to one centre distance, and what keeps them from working.
 
 Conditions are those of the blocking contours of external and internal pairs; rings are judged with a root that is
-rounded as usual cutters do it, so that no cutter decides. Helical teeth are judged in their transverse section. Lengths
-in mm, shifts in (normal) modules of their own mesh.
+rounded as usual cutters do it, so that no cutter decides, but for the contact ratio of sets that are built. Helical
+teeth are judged in their transverse section. Lengths in mm, shifts in (normal) modules of their own mesh.
 """
 
 from __future__ import annotations
@@ -13,20 +13,30 @@ from fractions import Fraction
 from functools import cached_property
 
 from geometry.base.angles import involute_function
+from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
 from geometry.gears.shifts.finder import AnyShiftPair, least_margin, margins, state_of
-from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState, interferences, ring_numbers
-from geometry.gears.teeth.basic_rack import BasicRack
-from geometry.gears.teeth.cutter import CUTTER_ROUNDING
+from geometry.gears.shifts.internal_shifts import (
+    InternalShiftPair,
+    InternalState,
+    interferences,
+    internal_state,
+    ring_numbers,
+)
+from geometry.gears.teeth.basic_rack import BasicRack, iso_53
+from geometry.gears.teeth.cutter import CUTTER_ROUNDING, PinionCutter
 from geometry.gears.teeth.limits import Margin
 from geometry.gears.teeth.ring import RoundedRoot
-from geometry.gears.teeth.transverse import transverse_rack
+from geometry.gears.teeth.ring_made import settled_ring
+from geometry.gears.teeth.transverse import normal_angle, transverse_cutter, transverse_rack
 from geometry.gears.teeth.transverse_ring import transverse_root
 
 # modules: how far the distance is moved and the rims are shifted, in which steps
 _FARTHEST, _MOST_SHIFT, _STEP = 1.5, 1.0, 0.05
+# the rack of sets that are built; rings of others are made by cutters of their own
+_BUILT = iso_53("A")
 # of a margin of 0, what rounding leaves
 _ROUNDING = 1e-9
 
@@ -100,6 +110,22 @@ class RimMesh(Record, dict=True):
     def least_margin(self, wish: Requirements, rim_shift: float, central_shift: float) -> float:
         """The least margin of all conditions."""
         return least_margin(self._pair(central_shift), wish, rim_shift, central_shift)
+
+    def made_ratio(self, rim_shift: float, central_shift: float) -> float:
+        """The contact ratio of an internal mesh in a ring as the cutter makes it that one without any named gets.
+
+        A rim's tips end where its fillets begin, which may be sooner than with a rounded root.
+        """
+        state = internal_state(self._rounded[0], rim_shift, central_shift)
+        beyond = state.end + state.line - self._made_reach(central_shift)
+        return state.contact_ratio - max(beyond, 0.0) * self._share / (math.pi * math.cos(self.rack.pressure_angle))
+
+    def _made_reach(self, central_shift: float) -> float:
+        """How far the ring's involute reaches as it is made, from the base circle along the line of action."""
+        ring = self._rounded[0].ring(central_shift)
+        usual = PinionCutter(1.0, 25, normal_angle(ring.pressure_angle, self.helix_angle))
+        cutter = transverse_cutter(usual, self.helix_angle)
+        return settled_ring(replace(ring, root=cutter, any_cutter=True)).cut_form_length
 
     def tips(self, rim_shift: float, central_shift: float) -> tuple[float, float]:
         """Radii, mm, that the rim's and the central wheel's teeth reach outwards: a ring's root, else tips."""
@@ -244,7 +270,12 @@ class Fitting(Record):
         assert central is not None
         if abs(central) > 2 * _MOST_SHIFT or mesh.least_margin(self.wish, rim_shift, central) < -_ROUNDING:
             return False
-        return self._clear(mesh, distance, rim_shift)
+        if not self._clear(mesh, distance, rim_shift):
+            return False
+        if self.rack != _BUILT or not mesh.internal:
+            return True
+        least = self.wish.contact_ratio - _ROUNDING
+        return kept(lambda x: mesh.made_ratio(rim_shift, x) >= least, central)
 
     def _clear(self, mesh: RimMesh, distance: float, rim_shift: float) -> bool:
         """Whether the tips of neighbours keep apart."""
