@@ -18,6 +18,7 @@ from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.pairs.sliding import specific_sliding
+from geometry.gears.shifts.hills import marked
 from geometry.gears.shifts.racked_teeth import RackedTeeth
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.joints import form_length
@@ -238,13 +239,14 @@ def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterato
 
 
 def least_margin(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> float:
-    """The least of all margins, -1 where the pair does not exist; roots only where all else is kept.
+    """The least of all margins, -1 where the pair does not exist.
 
     It has no steps, by which hills of the legal shifts would be missed.
     """
     found = [value - limit for _, value, limit in _sides(pair, wish, x1, x2)]
     for i in (0, 1):
-        exactly = (x1, x2)[i] >= least_shift(pair, i) or min(found) >= 0
+        # an undercut flank costs a root: not where undercut is refused anyway
+        exactly = wish.allow_undercut or (x1, x2)[i] >= least_shift(pair, i)
         found.append(active_flank(pair, x1, x2, i, exactly).margin)
     return -1.0 if any(map(math.isnan, found)) else min(found)
 
@@ -271,7 +273,7 @@ class BlockingContour(Record):
 def usual_box(pair: ShiftPair, cells: int = 40) -> Box | None:
     """A box around all pairs that turn at all (contact ratio 1, pointed tips, undercut unseen); None: there are none.
 
-    Found on a coarse grid of shifts from -3 to 5.
+    Found on a coarse grid of shifts from -3 to 5, and as far beyond it as narrow corners reach.
     """
     steps, loose = [-3 + k / 10 for k in range(81)], Requirements(0.0, 1.0, allow_undercut=True)
     inside = [(x1, x2) for x1 in steps for x2 in steps if least_margin(pair, loose, x1, x2) >= 0]
@@ -279,7 +281,23 @@ def usual_box(pair: ShiftPair, cells: int = 40) -> Box | None:
         return None
     ones, twos = [x for x, _ in inside], [x for _, x in inside]
     room = 0.2
-    return Box(min(ones) - room, max(ones) + room, min(twos) - room, max(twos) + room, cells)
+    ends = [min(ones) - room, max(ones) + room, min(twos) - room, max(twos) + room]
+    for k, way in enumerate((-room, room, -room, room)):
+        low, high = (ends[2], ends[3]) if k < 2 else (ends[0], ends[1])
+        while steps[0] < ends[k] < steps[-1] and _has_legal(pair, loose, k < 2, ends[k], low, high):
+            ends[k] += way
+    left, right, bottom, top = ends
+    return Box(left, right, bottom, top, cells)
+
+
+def _has_legal(pair: ShiftPair, wish: Requirements, first: bool, at: float, low: float, high: float) -> bool:
+    """Whether shifts are legal where x1 (``first``) or x2 is ``at``, the other one between two values."""
+
+    def margin(along: float) -> float:
+        x1, x2 = (at, along) if first else (along, at)
+        return least_margin(pair, wish, x1, x2)
+
+    return max(marked(margin, low, high, 0.1)[1]) >= 0
 
 
 def blocking_contour(

@@ -19,19 +19,17 @@ from geometry.gears.shifts import external as blocking_contour
 from geometry.gears.shifts import internal as internal_contour
 from geometry.gears.shifts import internal_shifts
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair, usual_box
+from geometry.gears.shifts.hills import golden_section, marked
 from geometry.gears.shifts.internal import InternalRequirements, Window
 from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState
 from geometry.gears.teeth.limits import Margin
 
 # how finely sums and shifts are looked at, in modules; between grid points the greatest margin is sought
 _STEP = 0.05
-# no margin rises faster than this many modules a module
-_STEEPEST = 8.0
-# golden sections within a line and between lines: to 1e-9 and 1e-7; halvings at an end: to 1e-12
-_SECTIONS, _OUTER_SECTIONS, _HALVINGS = 40, 28, 36
+# golden sections between lines: to 1e-7; halvings at an end: to 1e-12
+_OUTER_SECTIONS, _HALVINGS = 28, 36
 # what a root leaves of a margin of 0
 _ROUNDING = 1e-9
-_GOLDEN = (math.sqrt(5) - 1) / 2
 
 
 class Proposal(Record):
@@ -115,9 +113,9 @@ def _sums(pair: AnyShiftPair, wish: Requirements) -> list[float]:
 
     def greatest(total: float) -> float:
         line = _first_shifts(pair, total)
-        return -math.inf if line is None else max(_marked(partial(_margin_on, pair, wish, total), *line)[1])
+        return -math.inf if line is None else max(marked(partial(_margin_on, pair, wish, total), *line)[1])
 
-    return _marked(greatest, sums[0], sums[-1], found.step)[0]
+    return marked(greatest, sums[0], sums[-1], found.step)[0]
 
 
 def _margin_on(pair: AnyShiftPair, wish: Requirements, total: float, x1: float) -> float:
@@ -205,7 +203,9 @@ def greatest_contact_ratio(pair: AnyShiftPair, wish: Requirements) -> Proposal |
 
     def shift(total: float) -> float | None:
         own = partial(ratio, total)
-        found = [x for low, high in legal_shifts(pair, wish, total) for x in (_golden(own, low, high), low, high)]
+        found = [
+            x for low, high in legal_shifts(pair, wish, total) for x in (golden_section(own, low, high), low, high)
+        ]
         # between marks a narrow gap in the legal shifts may have been overlooked
         return max((x1 for x1 in found if _is_legal(pair, wish, total, x1)), key=own, default=None)
 
@@ -253,7 +253,7 @@ def _best(
     for k in (best - 1, best + 1):
         k = min(max(k, 0), len(sums) - 1)
         ends.append(sums[k] if values[k] > -math.inf else _last_inside(function, sums[best], sums[k]))
-    total = max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
+    total = max((golden_section(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
     x1 = shift(total)
     return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, total, x1))
 
@@ -262,43 +262,9 @@ def _last_inside(function: Callable[[float], float], inside: float, outside: flo
     return last_that_holds(lambda x: function(x) > -math.inf, outside, inside, _HALVINGS)
 
 
-def _golden(function: Callable[[float], float], low: float, high: float, sections: int = _SECTIONS) -> float:
-    """Where a function of one hill is greatest; -inf outside its domain only pushes inwards."""
-    one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-    values = function(one), function(two)
-    for _ in range(sections):
-        if values[0] >= values[1]:
-            high, two = two, one
-            one = high - _GOLDEN * (high - low)
-            values = function(one), values[0]
-        else:
-            low, one = one, two
-            two = low + _GOLDEN * (high - low)
-            values = values[1], function(two)
-    return max((low, high, (low + high) / 2), key=function)
-
-
-def _marked(
-    function: Callable[[float], float], low: float, high: float, step: float
-) -> tuple[list[float], list[float]]:
-    """Marks no farther apart than a step with a function's values, and where all about is below 0, tops between two."""
-    count = max(2, math.ceil((high - low) / step))
-    marks = [low + (high - low) * k / count for k in range(count + 1)]
-    values = [function(m) for m in marks]
-    beside = [-math.inf, *values, -math.inf]
-    for k in reversed(range(count + 1)):
-        # beside a mark that stands over those on both sides there may be 0 and more
-        if -_STEEPEST * step <= values[k] < 0 and beside[k] <= values[k] > beside[k + 2]:
-            top = _golden(function, marks[max(k - 1, 0)], marks[min(k + 1, count)])
-            at = k + (top > marks[k])
-            marks.insert(at, top)
-            values.insert(at, function(top))
-    return marks, values
-
-
 def _positive(function: Callable[[float], float], low: float, high: float, step: float) -> list[tuple[float, float]]:
     """The intervals in which a function is >= 0; ends are roots, the side that is >= 0."""
-    marks, values = _marked(function, low, high, step)
+    marks, values = marked(function, low, high, step)
     ends: list[float] = [marks[0]] if values[0] >= 0 else []
     for (a, b), (fa, fb) in zip(pairwise(marks), pairwise(values), strict=True):
         if (fa >= 0) != (fb >= 0):

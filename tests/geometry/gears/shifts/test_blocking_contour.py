@@ -273,14 +273,18 @@ def test_proposals_beat_random_legal_shifts(teeth: tuple[int, int], wish: Requir
     assert legal > 20
 
 
-@pytest.mark.parametrize("teeth", [(12, 30), pytest.param((31, 81), marks=pytest.mark.heavy)], ids=str)
-def test_no_legal_shifts_beside_a_proposal_give_more(teeth: tuple[int, int]) -> None:
+@pytest.mark.parametrize(("pair", "wish"), [
+    (ShiftPair(12, 30, RACK), WISH),
+    pytest.param(ShiftPair(31, 81, RACK), WISH, marks=pytest.mark.heavy),
+    # a corner that reaches beyond the coarse grid of the box
+    pytest.param(ShiftPair(8, 24, iso_53("D")), Requirements(0.0, 1.05, True), marks=pytest.mark.heavy),
+], ids=["12/30", "31/81", "8/24"])  # fmt: skip
+def test_no_legal_shifts_beside_a_proposal_give_more(pair: ShiftPair, wish: Requirements) -> None:
     """In the corners of the contour, where legal intervals are narrower than what is looked at."""
-    pair = ShiftPair(*teeth, RACK)
-    found = greatest_contact_ratio(pair, WISH)
+    found = greatest_contact_ratio(pair, wish)
     assert found is not None
-    about = [(found.first + i * 0.002, found.second + k * 0.002) for i in range(-10, 11) for k in range(-10, 11)]
-    legal = [state_of(pair, *shifts).contact_ratio for shifts in about if least_margin(pair, WISH, *shifts) >= 0]
+    about = [(found.first + i * 0.003, found.second + k * 0.006) for i in range(-10, 11) for k in range(-10, 11)]
+    legal = [state_of(pair, *shifts).contact_ratio for shifts in about if least_margin(pair, wish, *shifts) >= 0]
     assert legal
     assert max(legal) <= found.contact_ratio + 1e-7
 
