@@ -174,9 +174,9 @@ def _rounded(curves: RingCurves, half_pitch: float) -> tuple[float, list[Segment
     flank, radius, tip = curves.flank, curves.tip_rounding, curves.tip_radius
     turned = replace(flank, base_angle=flank.base_angle - radius / flank.base_radius)
     centre_roll = turned.roll_at_radius(tip + radius)
-    centre = complex(turned.point(centre_roll))
     touch_roll = centre_roll - radius / flank.base_radius
-    if not 0 <= touch_roll < flank.end_roll or cmath.phase(centre) < -half_pitch:
+    reaches = 0 <= touch_roll < flank.end_roll
+    if not reaches or cmath.phase(centre := complex(turned.point(centre_roll))) < -half_pitch:
         raise ParameterError("tip_rounding", radius, "rounding_does_not_fit")
     corner = centre * tip / abs(centre)
     arc = arc_between(centre, complex(flank.point(touch_roll)), corner, turns_left=True)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, PointedTipError
@@ -299,6 +299,7 @@ def test_pointed_ring_teeth_are_told_so() -> None:
 @given(st.sampled_from(["module", "profile_shift_coefficient", "given_tip_diameter", "circumferential_thinning",
                         "tip_chamfer", "tip_rounding", "outer_diameter", "addendum"]),
        st.sampled_from([0.0, -1.0, 1e-300, 1e300, math.inf, -math.inf, math.nan, 1e6]))  # fmt: skip
+@example("tip_rounding", 1e300)
 @examples(30)
 def test_hostile_numbers_are_refused_or_built(key: str, value: float) -> None:
     gear = replace(ring(), **{key: value})
