@@ -31,6 +31,8 @@ _LEAST_LETTER, _LARGER = 0.5, 100
 _MOVED, _SMALLER, _LOW, _HIGH = re.compile(r"(?<=(?<!\w)[^\W\d_])_([^\W_]+)(?!\w)|\^(\d+)"), 0.7, 0.2, -0.35
 # arcs of more than 100 degrees
 _LONG_BULGE = float(np.tan(np.radians(25)))
+# LaserGRBL cuts an arc of a path in so many chords (GCodeFromSVG.cs); how far they may leave it, mm: Grbl's own $12
+_CHORDS, _FOLLOWED = 12, 0.002
 
 
 def fill(index: int) -> str:
@@ -47,6 +49,7 @@ def write_laser_svg(
 ) -> dict[str, int]:
     """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet.
 
+    What stands behind a path is a path: LaserGRBL cuts all circles of a file before its paths.
     ``strokes``: points of open chains, which are engraved before all else. The origin stands in the middle of the page,
     or in the lower left corner of a ``board`` of this size, mm.
     """
@@ -54,7 +57,10 @@ def write_laser_svg(
     page, origin = (2 * middle * (1 + 1j), middle * (1 + 1j)) if board is None else (board, 1j * board.imag)
     lines = [page_head(page.real, page.imag)]
     lines += [f'<path d="{stroke_data(stroke, origin)}" {_look("ENGRAVE")}/>' for stroke in strokes]
-    lines += [_shape(b.geometry, _look(layer), origin) for layer, b in zip(layers, boundaries, strict=True)]
+    ahead = not strokes
+    for layer, boundary in zip(layers, boundaries, strict=True):
+        ahead = ahead and _is_circle(boundary.geometry)
+        lines.append((_circle if ahead else _path)(boundary.geometry, _look(layer), origin))
     save(file, lines)
     counts = {"shapes": len(boundaries), **({"strokes": len(strokes)} if strokes else {})}
     return {**counts, "vertices": sum(len(b.geometry) for b in boundaries)}
@@ -79,19 +85,28 @@ def page_head(wide: float, high: float, left: float = 0.0, top: float = 0.0) -> 
     )
 
 
-def _shape(contour: Contour, attributes: str, origin: complex) -> str:
-    """A contour as a path, or as a circle where it is one; ``origin``: its place from the page's upper left corner."""
-    if len(contour) == 2 and np.allclose(np.abs(contour.bulges), 1, rtol=1e-12):
-        ends, decimals = contour.expanded()[0], contour.decimals or _PICTURE_DECIMALS
-        centre, radius = ends.mean(), abs(ends[0] - ends[1]) / 2
-        x, y, r = (number(v, decimals) for v in (origin.real + centre.real, origin.imag - centre.imag, radius))
-        return f'<circle cx="{x}" cy="{y}" r="{r}" {attributes}/>'
-    return f'<path d="{path_data(contour, origin)}" {attributes}/>'
+def _is_circle(contour: Contour) -> bool:
+    return len(contour) == 2 and np.allclose(np.abs(contour.bulges), 1, rtol=1e-12)
 
 
-def path_data(contour: Contour, origin: complex) -> str:
-    """Absolute M, L and A commands; y runs down in SVG, so a left turn has sweep flag 0."""
-    vertices, bulges = _quartered(*contour.expanded())
+def _circle(contour: Contour, attributes: str, origin: complex) -> str:
+    """``origin``: its place from the page's upper left corner."""
+    ends, decimals = contour.expanded()[0], contour.decimals or _PICTURE_DECIMALS
+    centre, radius = ends.mean(), abs(ends[0] - ends[1]) / 2
+    x, y, r = (number(v, decimals) for v in (origin.real + centre.real, origin.imag - centre.imag, radius))
+    return f'<circle cx="{x}" cy="{y}" r="{r}" {attributes}/>'
+
+
+def _path(contour: Contour, attributes: str, origin: complex) -> str:
+    return f'<path d="{path_data(contour, origin, _FOLLOWED)}" {attributes}/>'
+
+
+def path_data(contour: Contour, origin: complex, followed: float = math.inf) -> str:
+    """Absolute M, L and A commands; y runs down in SVG, so a left turn has sweep flag 0.
+
+    ``followed``: how far the chords of LaserGRBL may leave an arc, mm.
+    """
+    vertices, bulges = _divided(*contour.expanded(), followed)
     ends, decimals = np.roll(vertices, -1), contour.decimals or _PICTURE_DECIMALS
     xs, ys = (origin.real + ends.real).tolist(), (origin.imag - ends.imag).tolist()
     parts = [f"M{number(xs[-1], decimals)},{number(ys[-1], decimals)}"]
@@ -106,14 +121,20 @@ def path_data(contour: Contour, origin: complex) -> str:
     return " ".join(parts) + " Z"
 
 
-def _quartered(vertices: Complex, bulges: Real) -> tuple[Complex, Real]:
-    """The same outline with every long arc cut into four: near half a turn, ends and radius hold its centre badly."""
-    long = np.abs(bulges) > _LONG_BULGE
-    if not long.any():
+def _divided(vertices: Complex, bulges: Real, followed: float) -> tuple[Complex, Real]:
+    """The same outline, its arcs cut: long ones into four; near half a turn ends and radius hold the centre badly."""
+    ends, heights = np.roll(vertices, -1), np.abs(bulges)
+    counts = np.where(heights > _LONG_BULGE, 4, 1)
+    # n chords leave an arc by r (sweep / n)^2 / 8
+    sweeps = 4 * np.arctan(heights)
+    grown = sweeps * np.abs(ends - vertices) / np.sinc(sweeps / (2 * math.pi))
+    counts = np.maximum(counts, np.ceil(np.sqrt(grown / (8 * followed)) / _CHORDS)).astype(int)
+    if counts.max() == 1:
         return vertices, bulges
-    places = edge_points(vertices, np.roll(vertices, -1), bulges, np.arange(4) / 4)
-    heights = np.where(long, np.tan(np.arctan(bulges) / 4), bulges)
-    return places[long[:, None] | (np.arange(4) == 0)], np.repeat(heights, np.where(long, 4, 1))
+    edges = np.repeat(np.arange(len(counts)), counts)
+    shares = (np.arange(len(edges)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[edges]
+    places = edge_points(vertices[edges], ends[edges], bulges[edges], shares[:, None]).ravel()
+    return places, np.where(counts == 1, bulges, np.tan(np.arctan(bulges) / counts))[edges]
 
 
 def _radius(chord: float, bulge: float, decimals: int) -> str:

@@ -82,7 +82,7 @@ class Approximation(Record):
 
 
 def edge_points(starts: Complex, ends: Complex, bulges: Real, fractions: Real) -> Complex:
-    """Points (n, k) of edges (n,) at fractions (k,) of each chord or sweep."""
+    """Points (n, k) of edges (n,) at fractions (k,) of each chord or sweep, or at those (n, k) of its own."""
     starts, ends, bulges = starts[:, None], ends[:, None], bulges[:, None]
     quarter = np.arctan(bulges)
     # an arc through both ends with sweep 4 q: z = s + (e - s) sin(2 q f) / sin(2 q) exp(-2 i q (1 - f))

@@ -10,6 +10,7 @@ import zipfile
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+from xml.etree import ElementTree
 
 import ezdxf
 import numpy as np
@@ -20,6 +21,7 @@ from exporters.formats.drawing_dxf import add_curve, write_drawing_dxf
 from exporters.formats.laser_dxf import write_laser_dxf
 from exporters.formats.read_3mf import read_3mf_assembly
 from exporters.formats.read_stl import read_stl
+from exporters.formats.read_svg import read_svg
 from exporters.formats.readback import Loop, ReadMesh, SmoothLoop
 from exporters.formats.stl import write_stl
 from exporters.formats.svg import number, path_data, write_laser_svg
@@ -27,9 +29,10 @@ from exporters.formats.threemf import MeshPart, write_3mf, write_3mf_assembly
 from geometry.approximation.splines import fit_spline
 from geometry.base.placement import Placement3
 from geometry.base.tolerance import DRAWN_ROUNDING
+from geometry.curves.curve import Complex
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.contour import Approximation, Contour
+from geometry.plane.contour import Approximation, Contour, edge_points
 from parts.base.readback import ReadError
 from parts.solids.mesh import Mesh
 
@@ -120,6 +123,70 @@ def test_a_laser_file_says_how_much_is_in_it(version: str, kind: str, tmp_path: 
     plain = write_laser_svg(tmp_path / "b.svg", layers, (square, toothed), board=30 + 20j)
     assert plain == {"shapes": 2, "vertices": 16}
     assert 'width="30mm" height="20mm" viewBox="0 0 30 20"' in (tmp_path / "b.svg").read_text("utf-8")
+
+
+CIRCLE = approximation([60 + 0j, -60 + 0j], [1.0, 1.0])
+SLOT = approximation([2 + 1j, -2 + 1j, -2 - 1j, 2 - 1j], [0.0] * 4)
+HOLE = approximation([9 + 0j, 5 + 0j], [-1.0, -1.0])
+
+
+def lasergrbl(file: Path) -> list[tuple[str, float]]:
+    """What LaserGRBL cuts, in its order: all circles, then all paths; how far its chords leave the arcs of each, mm.
+
+    parseBasicElements and parsePath, calcArc and GetBezierApproximation of its GCodeFromSVG.cs: each quarter of a turn
+    that an arc has begun is cut in 12 chords.
+    """
+    root = ElementTree.parse(file).getroot()
+    cut = [(e.attrib["id"], 0.0) for e in root if e.tag.endswith("circle")]
+    for path in (e for e in root if e.tag.endswith("path")):
+        at, worst = 0j, 0.0
+        for command, text in re.findall("([MLA])([^MLAZ]*)", path.attrib["d"]):
+            numbers = [float(x) for x in text.replace(",", " ").split()]
+            to = complex(*numbers[-2:])
+            if command == "A":
+                turn = 2 * math.asin(min(1.0, abs(to - at) / 2 / numbers[0]))
+                chords = 12 * math.ceil(turn / (math.pi / 2))
+                worst = max(worst, numbers[0] * (1 - math.cos(turn / chords / 2)))
+            at = to
+        cut.append((path.attrib["id"], worst))
+    return cut
+
+
+@pytest.mark.parametrize("strokes", [(), (np.array([0j, 1 + 1j]),)], ids=["cut", "engraved"])
+@pytest.mark.parametrize(
+    ("inner", "round_ones"), [((SLOT,), 0), ((HOLE, SLOT), 1), ((HOLE,), 2)], ids=["slot", "both", "hole"]
+)
+def test_lasergrbl_cuts_an_svg_in_its_order(
+    inner: tuple[Approximation, ...], round_ones: int, strokes: tuple[Complex, ...], tmp_path: Path
+) -> None:
+    """A disc comes out last, after its slot, and engraving first, though LaserGRBL takes circles before paths."""
+    layers = (*["CUT_INNER"] * len(inner), "CUT_OUTER")
+    write_laser_svg(tmp_path / "disc.svg", layers, (*inner, CIRCLE), strokes)
+    cut = lasergrbl(tmp_path / "disc.svg")
+    assert [name for name, _ in cut] == [*["engrave"] * len(strokes), *["cut_inner"] * len(inner), "cut_outer"]
+    # a circle that stands before all paths stays one, which LaserGRBL cuts with true arcs
+    assert (tmp_path / "disc.svg").read_text("utf-8").count("<circle") == (0 if strokes else round_ones)
+
+
+def test_lasergrbl_follows_the_arcs_of_an_svg(tmp_path: Path) -> None:
+    """Within the 0.002 mm to which Grbl itself follows an arc: 0.13 mm off one of 60 mm that is cut in four."""
+    write_laser_svg(tmp_path / "disc.svg", ("CUT_INNER", "CUT_OUTER"), (SLOT, CIRCLE))
+    (_, straight), (_, bent) = lasergrbl(tmp_path / "disc.svg")
+    assert straight == 0
+    assert 0.001 < bent <= 0.002
+    (_, outer) = read_svg(tmp_path / "disc.svg").loops
+    ends = np.roll(outer.vertices, -1)
+    assert np.abs(np.abs(edge_points(outer.vertices, ends, outer.bulges, np.linspace(0, 1, 9))) - 60).max() < 1e-5
+
+
+def test_a_disc_that_lasergrbl_cuts_before_its_slot_is_seen(tmp_path: Path) -> None:
+    """The reader takes the outlines of a file as LaserGRBL does."""
+    write_laser_svg(tmp_path / "disc.svg", ("CUT_INNER", "CUT_OUTER"), (SLOT, CIRCLE))
+    lines = (tmp_path / "disc.svg").read_text("utf-8").splitlines()
+    style = lines[-2].partition(' id="')[2]
+    lines[-2] = f'<circle cx="62" cy="62" r="60" id="{style}'
+    (tmp_path / "disc.svg").write_text("\n".join(lines), "utf-8")
+    assert [loop.layer for loop in read_svg(tmp_path / "disc.svg").loops] == ["CUT_OUTER", "CUT_INNER"]
 
 
 @pytest.mark.parametrize(("value", "decimals", "text"), [
