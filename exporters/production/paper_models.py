@@ -19,15 +19,16 @@ _FLAT = 1e-8
 
 def paper_models(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     """The sheets of the parts that are wanted, all of them by default."""
-    outlines, errors = {}, {}
+    outlines, exact, errors = {}, {}, {}
     for part in (wanted.parts[name] for name in wanted.wanted):
         called = caption_name(part)
         name = called if called not in outlines else f"{called} {part.id}"
         profiles = part.section(0.0).region.profiles()
         made = [approximate_profile(p, asked.tolerance, arcs=True) for p in profiles]
+        exact[name] = profiles
         outlines[name] = [edge for one in made for edge in _edges(one.geometry)]
         errors[name] = max(one.max_error for one in made)
-    pages = model_pages(wanted.title, outlines, errors, asked.paper or "A4", asked.language)
+    pages = model_pages(wanted.title, outlines, exact, errors, asked.paper or "A4", asked.language)
     return [("", page) for page in pages]
 
 

@@ -13,9 +13,13 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
+from geometry.plane.measure import distance_to_nearest
+from geometry.plane.profile import Profile
+from parts.base.texts import N_
 from parts.drawing.canvas import TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, draw, text_width
 from parts.drawing.choice import blank
 from parts.drawing.expected import Expected
+from parts.drawing.readback import ReadSheet, Taken
 from parts.drawing.table import Row, Table
 from parts.texts.sheets import sheet_words
 
@@ -30,10 +34,29 @@ Edge = Line | Arc
 _CROSS = tuple(Line(-_MARK * way, _MARK * way) for way in (1, 1j))
 
 
+class OnOutlines(Record):
+    """Holds all that is cut on a sheet against the exact outlines, each moved to its place on the paper, mm."""
+
+    placed: tuple[tuple[complex, Sequence[Profile]], ...]
+
+    def check(self, sheet: ReadSheet, taken: Taken) -> None:
+        """How far the lines of the file are from the nearest one."""
+        points = np.concatenate([np.zeros(0, np.complex128), *(p for layer, p in sheet.samples if layer == "CUT")])
+        near = [distance_to_nearest(points - origin, profiles, taken.room) for origin, profiles in self.placed]
+        worst = float(np.min(near, axis=0).max(initial=0.0))
+        taken.measured["max_deviation"] = max(worst, taken.measured.get("max_deviation", 0.0))
+        taken.unless(worst <= taken.room, N_("outlines deviate by {worst:.3g} mm from the exact ones"), worst=worst)
+
+
 def model_pages(
-    title: str, outlines: Mapping[str, Sequence[Edge]], errors: Mapping[str, float], paper: str, language: str
+    title: str,
+    outlines: Mapping[str, Sequence[Edge]],
+    exact: Mapping[str, Sequence[Profile]],
+    errors: Mapping[str, float],
+    paper: str,
+    language: str,
 ) -> list[Expected]:
-    """What is needed to print and measure, then each part; ``errors``: of each outline, mm.
+    """What is needed to print and measure, then each part: its outline, the exact ones, the error between, mm.
 
     Outlines that a sheet holds whole share it where it has room for several.
     """
@@ -50,9 +73,10 @@ def model_pages(
             group = shared.get(name, [name])
             first |= dict.fromkeys(group, len(pages) + 2)
             if len(group) > 1:
-                made = [_together({n: outlines[n] for n in group}, boxes, layouts[name].upright, paper, language)]
+                shown = {n: outlines[n] for n in group}
+                made = [_together(shown, exact, boxes, layouts[name].upright, paper, language)]
             else:
-                made = _tiles(name, edges, layouts[name], boxes[name], paper, language)
+                made = _tiles(name, edges, exact[name], layouts[name], boxes[name], paper, language)
             for page in made:
                 page.canvas.max_error = max(errors[n] for n in group)
             pages += made
@@ -112,11 +136,16 @@ def _groups(names: Sequence[str], boxes: Mapping[str, Box], frame: Box, language
 
 
 def _together(
-    outlines: Mapping[str, Sequence[Edge]], boxes: Mapping[str, Box], upright: bool, paper: str, language: str
+    outlines: Mapping[str, Sequence[Edge]],
+    exact: Mapping[str, Sequence[Profile]],
+    boxes: Mapping[str, Box],
+    upright: bool,
+    paper: str,
+    language: str,
 ) -> Expected:
     """One sheet of several outlines, in rows."""
     canvas = blank(paper, upright=upright, margins=_MARGINS)
-    frame, curves = canvas.frame, list[Curve]()
+    frame, curves, placed = canvas.frame, list[Curve](), list[tuple[complex, Sequence[Profile]]]()
     at, deep = complex(frame.left, frame.high), 0.0
     for name, edges in outlines.items():
         box, cell = boxes[name], _cell(name, boxes[name], frame, language)
@@ -127,12 +156,13 @@ def _together(
         moved = [edge.placed(Placement2(0.0, place.origin)) for edge in edges]
         draw(canvas, "CUT", moved, Paper(1.0, 0j))
         curves += moved
+        placed.append((place.origin, exact[name]))
         # that of a small part beside the frame would leave the sheet
         cross = Box(-_MARK, -_MARK, _MARK, _MARK).moved(place.origin)
         if Box(0.0, 0.0, 0.0, 0.0).within(box) and cross.within(frame):
             draw(canvas, "CENTRE_MARK", _CROSS, place)
         at, deep = at + cell.real + OVERLAP, max(deep, cell.imag)
-    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": curves})
+    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": curves}, measures=OnOutlines(tuple(placed)))
 
 
 def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
@@ -158,7 +188,15 @@ def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
     return Expected(canvas, Paper(1.0, 0j), (), {"CUT": list(sides)})
 
 
-def _tiles(name: str, edges: Sequence[Edge], layout: _Layout, box: Box, paper: str, language: str) -> list[Expected]:
+def _tiles(
+    name: str,
+    edges: Sequence[Edge],
+    exact: Sequence[Profile],
+    layout: _Layout,
+    box: Box,
+    paper: str,
+    language: str,
+) -> list[Expected]:
     """The sheets of one outline, those that show nothing of it left out."""
     columns, rows, upright, wide, tall = layout.columns, layout.rows, layout.upright, layout.wide, layout.tall
     corner = complex(box.left + box.right - columns * wide, box.low + box.high - rows * tall) / 2
@@ -183,7 +221,8 @@ def _tiles(name: str, edges: Sequence[Edge], layout: _Layout, box: Box, paper: s
             tiled = sheet_words(language, "model_tile", part=name, **place)
             text = tiled if rows * columns > 1 else _caption(name, language)
             canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.wide - 4.0)
-            found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}))
+            on = OnOutlines(((origin, exact),))
+            found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}, measures=on))
     return found
 
 

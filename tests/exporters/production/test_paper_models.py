@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,11 @@ import pytest
 
 from exporters.production import paper_models
 from exporters.production.plan import plan_build
+from exporters.verification.verdict import Verdict
+from geometry.base.record import replace
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.contour import Contour
+from geometry.plane.contour import Approximation, Contour
 from parts.scene.load import scene_from_toml
 
 PLATE = """
@@ -62,7 +65,7 @@ def test_round_holes_are_arcs_and_names_are_told_apart(monkeypatch: pytest.Monke
     whole = paper_models.model_pages
     monkeypatch.setattr(paper_models, "model_pages", lambda *given: seen.append(given) or whole(*given))
     (job,) = plan_build(scene_from_toml(PLATE.encode(), "s.toml", "s"), "s", [], []).sheets
-    title, outlines, errors, paper, _ = seen[0]
+    title, outlines, _, errors, paper, _ = seen[0]
     assert (title, list(outlines), list(errors), paper) == ("Two plates", ["Plate", "Plate second"], [*outlines], "A4")
     lines = [edge for edge in outlines["Plate"] if isinstance(edge, Line)]
     arcs = [edge for edge in outlines["Plate"] if isinstance(edge, Arc)]
@@ -104,6 +107,32 @@ def model_of(parts: str, asked: str = "") -> Any:
     export = f'[[exports]]\nformat = "pdf"\npurpose = "model"\ntolerance = 0.02\n{asked}'
     (job,) = plan_build(scene_from_toml(f"{parts}{export}".encode(), "s.toml", "s"), "s", [], []).sheets
     return job
+
+
+@pytest.mark.parametrize("many", [False, True], ids=["alone", "together"])
+def test_a_model_is_held_against_the_exact_outline(many: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Within its tolerance of the involute itself; arcs that miss it by 0.03 mm, drawn as they should be, are seen."""
+    gear = '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 12\nface_width = 3.0\n'
+    parts = gear + plate_of("plate", 20.0, 10.0) * many
+
+    def judged() -> Verdict:
+        job = model_of(parts)
+        job.write(None, tmp_path / "m.pdf")
+        return job.verify(tmp_path / "m.pdf", 0.02)
+
+    good = judged()
+    assert not good.failures
+    assert 0.002 < good.measured["max_deviation"] <= 0.02
+    right = paper_models.approximate_profile
+
+    def grown(*given: Any, **named: Any) -> Approximation:
+        made = right(*given, **named)
+        return replace(made, geometry=replace(made.geometry, vertices=made.geometry.vertices * (1 + 0.03 / 14)))
+
+    monkeypatch.setattr(paper_models, "approximate_profile", grown)
+    bad = judged()
+    assert bad.failures
+    assert bad.measured["max_deviation"] == pytest.approx(0.03, abs=0.01)
 
 
 def plate_of(name: str, width: float, height: float) -> str:
