@@ -32,8 +32,9 @@ if TYPE_CHECKING:
 
 # poses of one pair at most; of one whose teeth the plane contact has decided; more in the search about the worst
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
-# the first way along a path in larger steps; how far solids are sought of each other, as a part of their size
-_FIRST, _SOUGHT = 3, 0.02
+# the first way along a path in larger steps; how far gaps are sought, as a part of the smaller solid's size: each costs
+# what lies within it, and too short a one steps through poses
+_FIRST, _SOUGHT = 3, 0.2
 # of a height in what two pairs have in common; mm: what is none
 _DIGITS, _NO_HEIGHT = 7, 1e-9
 

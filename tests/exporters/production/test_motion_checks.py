@@ -109,6 +109,27 @@ def test_what_stands_still_beside_a_lying_gear_is_not_swept(
     assert strikes or found["motion"] == {"pairs": 1, "tested": 1, "poses": 1, "uncovered": []}
 
 
+@pytest.mark.parametrize(("top", "strikes"), [(-11.5, False), (-9.5, True)])
+def test_a_small_pin_under_a_long_lying_shaft_is_decided(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], top: float, strikes: bool
+) -> None:
+    """The shaft's thin part ends at z = -10; its collar keeps circles from telling so, and gaps of the pin were sought
+    to 0.05 mm only, which left 720 poses too few: clear pairs were told as perhaps 0.13 mm in each other."""
+    arm = {"kind": "plate", "width": 210.0, "height": 8.0, "face_width": 2.0}
+    steps = [{"diameter": 100.0, "length": 8.0}, {"diameter": 20.0, "length": 250.0}]
+    raw = {
+        "parts": {"arm": arm, "pin": {"kind": "pin", "diameter": 4.0, "length": 5.0},
+                  "shaft": {"kind": "shaft", "steps": steps}},
+        "instances": {"arm": {"at": [0, 0, -22]}, "pin": {}, "shaft": {"at": [100, -175, 0], "axis": [0, 1, 0]}},
+        "mates": [{"kind": "fixed", "first": "arm", "second": "pin", "offset": [100, 0, top + 17.0]}],
+        "drives": [{"instance": "arm", "turns": 1.0}],
+    }  # fmt: skip
+    code, found = check(tmp_path, raw, capsys)
+    assert code == int(strikes)
+    assert strikes == ("solids" in found)
+    assert found["motion"]["uncovered"] == []
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("slow", [0.01, 0.0001])
 def test_a_carrier_far_slower_than_its_satellites_brings_them_to_a_post(
