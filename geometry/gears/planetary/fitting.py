@@ -8,7 +8,7 @@ teeth are judged in their transverse section. Lengths in mm, shifts in (normal) 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 
@@ -16,6 +16,7 @@ from geometry.base.angles import involute_function
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
+from geometry.gears.shifts import external as blocking_contour
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
 from geometry.gears.shifts.finder import AnyShiftPair, least_margin, margins, state_of
 from geometry.gears.shifts.internal_shifts import (
@@ -111,14 +112,22 @@ class RimMesh(Record, dict=True):
         """The least margin of all conditions."""
         return least_margin(self._pair(central_shift), wish, rim_shift, central_shift)
 
-    def made_ratio(self, rim_shift: float, central_shift: float) -> float:
-        """The contact ratio of an internal mesh in a ring as the cutter makes it that one without any named gets.
+    def rim_end(self, rim_shift: float, central_shift: float) -> float:
+        """Where the rim's tips end, from its base circle along the line of action, in modules.
 
-        A rim's tips end where its fillets begin, which may be sooner than with a rounded root.
+        In a ring as the cutter makes it that one without any named gets they end where its fillets begin, which may
+        be sooner than with a rounded root.
         """
+        if not self.internal:
+            return blocking_contour.state_of(self._external, rim_shift, central_shift).tips[0]
         state = internal_state(self._rounded[0], rim_shift, central_shift)
-        beyond = state.end + state.line - self._made_reach(central_shift)
-        return state.contact_ratio - max(beyond, 0.0) * self._share / (math.pi * math.cos(self.rack.pressure_angle))
+        return min(state.end, self._made_reach(central_shift) - state.line)
+
+    def ratio_to(self, rim_shift: float, central_shift: float, end: float) -> float:
+        """The contact ratio with the rim's tips cut down to ``end``, modules from its base circle."""
+        state = self.state(rim_shift, central_shift)
+        tip = state.end if isinstance(state, InternalState) else state.tips[0]
+        return state.contact_ratio - max(tip - end, 0.0) * self._share / (math.pi * math.cos(self.rack.pressure_angle))
 
     def _made_reach(self, central_shift: float) -> float:
         """How far the ring's involute reaches as it is made, from the base circle along the line of action."""
@@ -222,6 +231,15 @@ class Fitting(Record):
         nan = math.nan
         return self._made(meshes, a, (nan if one is None else one, 0.0, 0.0, nan if two is None else two))
 
+    def made_ratios(self, fit: Fit, double: bool) -> tuple[float, ...] | None:
+        """Contact ratios of both meshes of a fit as a scene makes them, which makes none of other racks."""
+        if self.rack != _BUILT:
+            return None
+        if not double:
+            return made_ratios(fit.meshes, fit.distance, fit.shifts[1])
+        one, two = (made_ratios((mesh,), fit.distance, x) for mesh, x in zip(fit.meshes, fit.shifts[1:3], strict=True))
+        return one + two
+
     def _meshes(self, teeth: PlanetarySet) -> tuple[RimMesh, RimMesh]:
         z1, z2, z2p, z3 = teeth.teeth
         (one, two), beta = teeth.scheme.internal, self.helix_angle
@@ -248,11 +266,12 @@ class Fitting(Record):
             return None
         if not teeth.scheme.double:
             good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x) for m in meshes))
-            x = next(good, None)
+            x = next((x for x in good if self._made_keep(meshes, distance, x)), None)
             return None if x is None else self._with(meshes, distance, (x, x))
         rims = []
         for mesh in meshes:
-            x = next((x for x in self._rim_shifts(mesh) if self._keeps(mesh, distance, x)), None)
+            good = (x for x in self._rim_shifts(mesh) if self._keeps(mesh, distance, x))
+            x = next((x for x in good if self._made_keep((mesh,), distance, x)), None)
             if x is None:
                 return None
             rims.append(x)
@@ -270,12 +289,14 @@ class Fitting(Record):
         assert central is not None
         if abs(central) > 2 * _MOST_SHIFT or mesh.least_margin(self.wish, rim_shift, central) < -_ROUNDING:
             return False
-        if not self._clear(mesh, distance, rim_shift):
-            return False
-        if self.rack != _BUILT or not mesh.internal:
+        return self._clear(mesh, distance, rim_shift)
+
+    def _made_keep(self, meshes: Sequence[RimMesh], distance: float, rim_shift: float) -> bool:
+        """Whether the meshes of one rim keep the contact ratio as they are made."""
+        if self.rack != _BUILT:
             return True
         least = self.wish.contact_ratio - _ROUNDING
-        return kept(lambda x: mesh.made_ratio(rim_shift, x) >= least, central)
+        return kept(lambda x: min(made_ratios(meshes, distance, x)) >= least, rim_shift)
 
     def _clear(self, mesh: RimMesh, distance: float, rim_shift: float) -> bool:
         """Whether the tips of neighbours keep apart."""
@@ -295,6 +316,13 @@ class Fitting(Record):
         fit = Fit(meshes, distance, shifts, 0.0, self.least_gap, self.wish)
         tip = max(meshes[0].tips(x2, x1)[0], meshes[1].tips(x2p, x3)[0])
         return replace(fit, gap=gap_between(distance, tip, self.apart))
+
+
+def made_ratios(meshes: Sequence[RimMesh], distance: float, rim_shift: float) -> tuple[float, ...]:
+    """Contact ratios of all meshes of one rim as they are made, its tips cut by the mesh that leaves them least."""
+    centrals = [mesh.central_shift(distance, rim_shift) or 0.0 for mesh in meshes]
+    end = min(mesh.rim_end(rim_shift, x) for mesh, x in zip(meshes, centrals, strict=True))
+    return tuple(mesh.ratio_to(rim_shift, x, end) for mesh, x in zip(meshes, centrals, strict=True))
 
 
 def gap_between(distance: float, tip: float, apart: Fraction | None) -> float:

@@ -362,10 +362,12 @@ class _Page:
             shift, of = 0.0 if abs(x[k]) < 1e-12 else x[k], message("wheel {wheel}", wheel=wheel)
             symbol = f"x_n{wheel}" if self.helix else f"x_{wheel}"
             page.add("profile_shift_coefficient", shift, symbol=symbol, of=of)
-        for wheels, mesh, state in zip(self.meshes, fit.meshes, fit.states(), strict=True):
+        for wheels, mesh, state, made in zip(self.meshes, fit.meshes, fit.states(), self._made(fit), strict=True):
             of = message("mesh {wheels}", wheels=wheels)
             page.add("working_pressure_angle_deg", math.degrees(state.working_pressure_angle), of=of)
             page.add("contact_ratio", state.contact_ratio, "", "practicum (3.20)", of=of)
+            if made < state.contact_ratio:
+                page.add("made_contact_ratio", made, of=of)
             if isinstance(state, InternalState):
                 page.add("ring_tip_addendum", self._ring_addendum(mesh, state), of=of)
         if math.isfinite(fit.gap):
@@ -373,6 +375,10 @@ class _Page:
         page.add("set_diameter", fit.diameter)
         for wheels, mesh, broken in self._plain(one):
             self._interference(wheels, mesh, broken)
+
+    def _made(self, fit: Fit) -> tuple[float, ...]:
+        """Contact ratios of both meshes as a scene makes them, inf where it makes none of this rack."""
+        return self.fitting.made_ratios(fit, self.scheme.double) or (math.inf, math.inf)
 
     def _plain(self, one: PlanetarySet) -> list[tuple[str, RimMesh, list[str]]]:
         """Each mesh without shifts of the rims, with the names of what it breaks."""

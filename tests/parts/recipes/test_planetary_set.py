@@ -411,12 +411,14 @@ def test_fewer_unequally_spaced_satellites_are_offered_where_neighbours_overlap(
     ("keys", "rim"),
     [
         ({"teeth": [49, 28, 109], "satellites": 1}, "satellite"),
+        ({"teeth": [22, 48, 115], "satellites": 1}, "satellite"),
         ({"scheme": "one_external_one_internal", "teeth": [42, 12, 39, 93], "satellites": 4, "identical": False},
          "second_satellite"),
     ],
 )  # fmt: skip
 def test_satellites_follow_tooth_by_tooth_in_the_ring_as_it_is_cut(keys: dict[str, Any], rim: str) -> None:
-    """Its cutter's fillets take tips off them: shifts were chosen that left contact ratios of 0.89 and 0.53.
+    """Its cutter's fillets take tips off them: shifts were chosen that left contact ratios of 0.89, 0.53 and, with the
+    sun, 1.04.
 
     ISO 21771: (sqrt(r_a1^2 - r_b1^2) - sqrt(r_a2^2 - r_b2^2) + a sin(alpha_w)) / p_b.
     """
@@ -426,6 +428,11 @@ def test_satellites_follow_tooth_by_tooth_in_the_ring_as_it_is_cut(keys: dict[st
     line = math.sqrt(distance**2 - (ring.base_radius - pinion.base_radius) ** 2)
     ends = [math.sqrt(gear.tip_radius**2 - gear.base_radius**2) for gear in (pinion, ring)]
     assert (ends[0] - ends[1] + line) / (math.pi * math.cos(math.radians(20))) >= 1.1
+    if rim == "satellite":
+        sun = parts["sun"].thing
+        line = math.sqrt(distance**2 - (sun.base_radius + pinion.base_radius) ** 2)
+        ends[1] = math.sqrt(sun.tip_radius**2 - sun.base_radius**2)
+        assert (ends[0] + ends[1] - line) / (math.pi * math.cos(math.radians(20))) >= 1.1
 
 
 @pytest.mark.parametrize("keys", [{"teeth": [12, 12, 36]}, {**DAVID, "teeth": [50, 30, 20, 60]}])
