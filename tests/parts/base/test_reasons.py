@@ -9,6 +9,7 @@ from collections import Counter
 
 from parts.base.reasons import SUBJECTS, reason, sentences
 from parts.base.texts import Message
+from tests.sources import calls
 from tests.test_architecture import product_files
 
 # what refuses, and which of its arguments is the code
@@ -22,10 +23,10 @@ def faults(place: str, source: str) -> list[str]:
     found: list[str] = []
     if not any(f"{name}(" in source or f"{name}.beyond(" in source for name in REFUSE):
         return found
-    for call in ast.walk(ast.parse(source)):
-        if not isinstance(call, ast.Call):
-            continue
-        at = REFUSE.get(ast.unparse(call.func).removesuffix(".beyond"))
+    for call in calls(ast.parse(source)):
+        # a bare name, or its ``beyond``
+        func = call.func.value if isinstance(call.func, ast.Attribute) and call.func.attr == "beyond" else call.func
+        at = REFUSE.get(func.id) if isinstance(func, ast.Name) else None
         if at is None or len(call.args) <= at:
             continue
         code = call.args[at]
