@@ -24,7 +24,7 @@ from geometry.base.record import replace
 from geometry.curves.implicit import Box
 from geometry.gears.pairs.internal import internal_pair
 from geometry.gears.shifts.finder import for_sum
-from geometry.gears.shifts.internal import InternalRequirements, conditions, internal_contour, window
+from geometry.gears.shifts.internal import InternalRequirements, Window, conditions, internal_contour, window
 from geometry.gears.shifts.internal_shifts import InternalShiftPair
 from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.cutter import PinionCutter
@@ -77,8 +77,14 @@ second = "pinion"
 
 @pytest.fixture(autouse=True, scope="module")
 def _coarse_pictures() -> Iterator[None]:
-    """Chords of contours on pages as long as lines need to be there at all: finer ones take half of a page's time."""
+    """Chords and grids of contours as coarse as lines need to be there at all: finer ones take half of a page."""
+
+    def coarse(pair: InternalShiftPair) -> Window | None:
+        found = window(pair)
+        return found and replace(found, box=replace(found.box, cells=16))
+
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(internal_shift_choice, "window", coarse)
         patch.setattr(internal_shift_choice, "_TOLERANCE", 1e-2)
         yield
 

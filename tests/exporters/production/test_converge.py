@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from exporters.production import converge
 from exporters.production.converge import (
     CAD_LADDER,
     LADDER,
@@ -35,7 +36,11 @@ from tests.exporters.outside import Gear
 TEETH = 8
 
 
-def test_errors_keep_their_bounds_and_fall_as_the_methods_do(tmp_path: Path, capsys: pytest.CaptureFixture) -> None:
+def test_errors_keep_their_bounds_and_fall_as_the_methods_do(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # each file is written once: its time is no matter here
+    monkeypatch.setattr(converge, "_REPEATS", 1)
     # undercut: both curves of a tooth end where they cross
     scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(3.0, TEETH, bore=6.0))}, [{"format": "svg"}])
     assert run("converge", scene, "--out", tmp_path / "out") == 0

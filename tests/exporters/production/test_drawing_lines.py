@@ -209,7 +209,7 @@ def test_the_sign_on_the_seats_of_a_ring_keeps_off_dimension_lines(tmp_path: Pat
 def test_an_angle_without_room_beside_sizes_chooses_before_them(tmp_path: Path) -> None:
     """As it was: the tip angle found room at 1:5 only, with leaders across each other."""
     scene = load_scene("bevel_differential")
-    scene.exports = [ExportSpec(format="dxf", purpose="part", parts=["side"])]
+    scene.exports = [ExportSpec(format="dxf", purpose="part", parts=["side"], tolerance=0.01)]
     (job,) = plan_build(scene, "bevel_differential", [], []).sheets
     job.write({}, tmp_path / job.path)
     assert tangles(tmp_path / job.path) == []

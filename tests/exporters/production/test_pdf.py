@@ -23,6 +23,7 @@ from parts.base.refusal import SceneError
 from parts.drawing.canvas import STYLES, Box, Stroke
 from parts.drawing.tiles import clipped
 from parts.scene.load import scene_from_dict
+from tests.exporters.making import write_scene
 
 pdfium = pytest.importorskip("pypdfium2")
 pytestmark = pytest.mark.skipif(find_spec("fpdf") is None, reason="fpdf2 is an extra")
@@ -73,7 +74,7 @@ def paths_of(page: Any) -> Paths:
 
 def test_tiles_fit_each_other_and_make_the_exact_outline(tmp_path: Path) -> None:
     """The wheel of 230 mm on two sheets of A4: their crosses coincide, and all that is on them is its outline."""
-    job = job_of(parts=["two"])
+    job = job_of(parts=["two"], tolerance=2e-4)
     job.write({}, tmp_path / job.path)
     assert job.verify(tmp_path / job.path, 0.0).failures == ()
     document = pdfium.PdfDocument(tmp_path / job.path)
@@ -147,7 +148,7 @@ def test_words_are_found_in_cyrillic_and_the_bytes_are_the_same(tmp_path: Path, 
 
 
 def test_what_is_off_or_missing_in_a_pdf_is_seen(tmp_path: Path) -> None:
-    job = job_of(purpose="meshing")
+    job = job_of(purpose="meshing", tolerance=2e-4)
     canvas, file = job.canvas, tmp_path / "spoilt.pdf"
     write_sheets(file, [canvas], "t")
     assert job.verify(file, 0.0).failures == ()
@@ -221,9 +222,11 @@ def test_what_is_not_installed_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_scene_without_pdf_imports_nothing_of_it(tmp_path: Path) -> None:
+    export = {"format": "sheet", "purpose": "generating", "tolerance": 0.01}
+    scene = write_scene(tmp_path / "s.toml", {"one": GEAR}, [export])
     code = (
         "import sys; from exporters.command.cli import main; "
-        f"main(['build', 'practicum_pair', '--format', 'sheet', '--no-verify', '--out', {str(tmp_path)!r}]); "
+        f"assert main(['build', {str(scene)!r}, '--no-verify', '--out', {str(tmp_path)!r}]) == 0; "
         "assert 'ezdxf' in sys.modules and not {'fpdf', 'PIL'} & set(sys.modules), 'loaded'"
     )
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)

@@ -268,7 +268,8 @@ def test_holes_run_from_the_front_to_the_back_of_the_rim(tmp_path: Path) -> None
     back = cone / math.cos(root - delta) * math.cos(root) + 4.0 * math.sin(delta)
     lost = plain.body(0.0).moments.volume - holed.body(0.0).moments.volume
     assert lost == pytest.approx(4 * math.pi * 4.0**2 * (back - front), rel=1e-9)
-    exports = [{"format": "step"}, {"format": "stl", "tolerance": 0.02}, {"format": "svg", "purpose": "part"}]
+    drawing = {"format": "svg", "purpose": "part", "paper": "A3", "scale": "1:1", "tolerance": 0.01}
+    exports = [{"format": "step"}, {"format": "stl", "tolerance": 0.1}, drawing]
     file = write_scene(tmp_path / "s.toml", {"wheel": HOLED}, exports)
     assert main(["build", str(file), "--out", str(tmp_path), "--quiet"]) == 0
 
