@@ -433,6 +433,7 @@ def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: py
     )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("kind", ["spur_gear", "rack", "cam", "lantern_gear", "geneva_wheel", "geneva_driver"])
 def test_a_new_scene_with_its_second_part_and_without_both_marks_stands(
     kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -270,7 +270,7 @@ def test_a_follower_at_rest_has_a_pressure_angle_without_a_velocity() -> None:
     assert step.value == pytest.approx(just, abs=0.05)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", WORDS)
 def test_both_languages_in_every_format(name: str) -> None:
     page = page_of(name, "speed_rpm=60")

@@ -281,7 +281,7 @@ def test_the_built_in_scene_loads() -> None:
     assert make_parts(load_scene("helical_gears"), "helical_gears")[0]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("more", [{}, {"double_helical": True}, {"module": 0.01, "face_width": 0.05}])
 @pytest.mark.parametrize(("kind", "teeth"), [("spur_gear", 20), ("ring_gear", 60), ("rack", 6)])
 def test_the_least_helix_that_is_taken_is_told_by_every_file(

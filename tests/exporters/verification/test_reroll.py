@@ -166,6 +166,7 @@ POINTED: dict[str, dict[str, Any]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", POINTED)
 @pytest.mark.parametrize(("offset", "tolerance"), [(0.06, 0.003), (0.2, 0.01)])
 def test_a_point_passes_hollow_corners_of_chords_that_are_moved_out(

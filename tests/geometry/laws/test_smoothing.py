@@ -134,7 +134,7 @@ def left_in_60_digits(places: np.ndarray, values: np.ndarray, weight: mp.mpf) ->
     return np.array(weight * bent.dot(right))
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("power", [-8, 0, 2, 5])
 @pytest.mark.parametrize(("ratio", "order"), [(1e3, "thirds"), (1e6, "thirds"), (1e4, "one"), (1e7, "any")])
 def test_uneven_rows_are_smoothed_to_the_last_digits(ratio: float, order: str, power: int) -> None:
@@ -146,7 +146,7 @@ def test_uneven_rows_are_smoothed_to_the_last_digits(ratio: float, order: str, p
     assert np.abs(values - found - exact).max() < 1e-8 * np.abs(exact).max() + 1e-14
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("share", [0.0025, 0.025, 0.22, 0.45, 0.4999])
 @pytest.mark.parametrize("order", ["thirds", "one", "any"])
 @pytest.mark.parametrize("ratio", [1.0, 1e2, 1e5])

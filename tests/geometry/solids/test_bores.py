@@ -154,7 +154,7 @@ def test_areas_of_windows_and_of_holes_far_from_the_axis() -> None:
     assert sum(profile_area(p) for p in spokes.profiles()) == pytest.approx(-ring, rel=1e-12)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("share", [0.0, 0.02, 0.3, 0.97, -0.02, -0.3, -0.97])
 @pytest.mark.parametrize("name", MAKERS)
 def test_parallel_curves(name: str, share: float) -> None:
@@ -174,7 +174,7 @@ def test_parallel_curves(name: str, share: float) -> None:
             assert abs(end_point(before.curve) - start_point(after.curve)) <= 1e-13 * scale
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("name", MAKERS)
 def test_offsets_against_shapely(name: str, sign: int) -> None:

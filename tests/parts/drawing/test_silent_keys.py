@@ -199,7 +199,7 @@ def _cases() -> Iterator[Any]:
                 yield pytest.param(name, key, marks=pytest.mark.heavy if kind in SLOW else ())
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("name", "key"), [*_cases()])
 def test_what_changes_a_part_changes_a_word_of_its_drawing(name: str, key: str) -> None:
     raw, part = bases()[name]

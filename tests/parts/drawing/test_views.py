@@ -168,6 +168,7 @@ def judged(
     return faults
 
 
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("name", VIEWS)
 def test_lines_lie_on_edges_and_what_is_cut_is_hatched(name: str) -> None:
     drawing, vertices, triangles = drawn(name)

@@ -60,7 +60,7 @@ def refused(kind: str, key: str, value: object) -> SceneError:
 
 
 # as many as show every kind twice
-@pytest.mark.sampled(2 * len(TAKING))
+@pytest.mark.sampled(len(TAKING))
 @pytest.mark.parametrize("wrong", WRONG)
 @pytest.mark.parametrize("kind", TAKING)
 def test_a_bore_that_is_no_shape_is_refused_by_its_own_key(kind: str, wrong: str) -> None:

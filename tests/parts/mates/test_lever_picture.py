@@ -168,7 +168,7 @@ def test_a_plan_shows_its_vectors_with_arrows_at_their_ends_and_names_beside_the
     assert len(arrows) == 3
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("assignment", range(1, 11))
 def test_names_stand_off_lines_and_off_each_other(assignment: int, tmp_path: Path) -> None:
     """Scheme and plans of a mechanism with all its loads: lines by many points of them, names by their rooms."""

@@ -72,6 +72,7 @@ STANDING: dict[str, tuple[Raw, float, int, float, float, tuple[Any, ...]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("name", STANDING)
 @pytest.mark.parametrize("turned", [0.0, 2.0])
 def test_the_second_stands_where_its_mate_puts_it_and_off_that_by_as_much_as_it_is_moved(

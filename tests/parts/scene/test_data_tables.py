@@ -382,7 +382,7 @@ def crossings(canvas: Canvas) -> list[str]:
     return [*found, *(f"{canvas.texts[i].text} over a line" for i, _ in np.argwhere(over(words_at, thick)))]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("address", [*TOOTHED, *CAMS])
 def test_words_stand_over_no_word_and_no_line(address: str) -> None:
     for language in ("en", "uk"):

@@ -54,6 +54,7 @@ def test_what_is_asked_is_normal_to_the_flanks(kind: str) -> None:
     assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.05, abs=6e-4)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("beta", [0.0, 35.0])
 @pytest.mark.parametrize("kind", ["external_gear_pair", "internal_gear_pair"])
 def test_the_gap_that_is_told_is_that_of_meshes(kind: str, beta: float) -> None:
@@ -74,6 +75,7 @@ def test_the_gap_that_is_told_is_that_of_meshes(kind: str, beta: float) -> None:
     assert told.greatest_gap == pytest.approx(max(told.side_gaps[0]), abs=1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("beta", "own"), [(BETA, (0.2, 0.0)), (0.0, (0.15, 0.05))])
 @KINDS
 def test_thinned_teeth_may_stand_nearer_and_have_the_backlash_that_is_asked(
@@ -122,7 +124,7 @@ def test_shifts_without_a_distance_of_their_own_mesh_where_there_is_room(
     assert refused.value.nearest is not None
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("kind", "own", "step"),
     [("rack_pair", (0.5, 0.3), -0.2), ("rack_pair", (1.0, 0.2), 0.1), ("internal_gear_pair", (0.8, 0.4), 0.3)],

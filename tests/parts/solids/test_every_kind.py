@@ -71,7 +71,7 @@ def integrals(mesh: Mesh) -> tuple[float, np.ndarray, np.ndarray, float]:
     return float(volumes.sum()), volumes @ total / 4, np.asarray(squares), area
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", [*MADE, *SCENES])
 def test_a_mesh_is_closed_and_holds_what_exact_integrals_say(name: str) -> None:
     for part in parts_of(name).values():
@@ -99,7 +99,7 @@ def outline(part: Part, offset: float) -> shapely.Polygon:
     return shapely.Polygon([(p.real, p.imag) for p in outer], [[(p.real, p.imag) for p in hole] for hole in holes])
 
 
-@pytest.mark.sampled(20)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     # of a barrel the jackets are developed, which takes as long as all others together
     "name",

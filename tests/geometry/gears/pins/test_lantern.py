@@ -121,7 +121,7 @@ def test_the_greatest_gap_is_that_of_pins_about_the_gear(gear: LanternGear, grea
     teeth = shapely.Polygon(np.column_stack([(p := polygon(lantern_side(gear).profile(), 250)).real, p.imag]))
     shapely.prepare(outline := teeth.exterior)
     pitch = 2 * math.pi / gear.number_of_pins
-    drive = pitch * np.arange(1500) / 1500
+    drive = pitch * np.arange(600) / 600
     # a pin stands in the middle of a space on +x while the drive is 0
     turn = cmath.exp(-1j * math.pi / gear.number_of_teeth)
     centres = lantern_pins(gear.number_of_pins, gear.number_of_teeth, gear.lantern_radius)

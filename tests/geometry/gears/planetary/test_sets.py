@@ -233,7 +233,7 @@ def test_the_nearest_ratio_is_that_of_the_nearest_of_all_sets(name: str) -> None
     for driver, driven in itertools.permutations(LINKS, 2):
         for ratio in (Fraction(5), Fraction(-7, 3), Fraction(9, 10)):
             room = abs(ratio) / 2
-            wish = Search(SCHEMES[name], (ratio - room, ratio + room), driver, driven, 2, (6, 24))
+            wish = Search(SCHEMES[name], (ratio - room, ratio + room), driver, driven, 2, (6, 20))
             ratios = [ratio_of(one.carried_ratio, driver, driven) for one in found_sets(wish)]
             off = min((abs(r - ratio) for r in ratios if r is not None), default=None)
             found = nearest_ratio(wish)

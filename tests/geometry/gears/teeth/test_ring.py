@@ -344,7 +344,7 @@ USED_UP: dict[str, tuple[RingGear, float, set[str]]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", USED_UP)
 def test_a_moved_ring_lies_at_its_distance_whatever_is_used_up(name: str) -> None:
     """Every point of a period so far from the outline, none nearer to it, the hole as large as GEOS' buffer of it."""

@@ -83,7 +83,7 @@ def test_the_clearance_widens_the_groove() -> None:
     assert part.quantities["roller_diameter"] == 10.0
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(("keys", "key"), [
     (GROOVE | {"roller_diameter": 58.0, "groove_depth": 1.0}, "groove_depth"),
     (GROOVE | {"lift": 60.0, "phases": [PHASES[0] | {"angle_deg": 40.0}, PHASES[1] | {"angle_deg": 10.0},

@@ -221,7 +221,7 @@ READ: dict[str, tuple[Keys, str]] = {
 }
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
     keys, blamed, code = WRONG[name]

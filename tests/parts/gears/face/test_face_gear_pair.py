@@ -268,6 +268,7 @@ def test_hub_web_and_holes_weigh_what_they_are() -> None:
     assert solid.bounding_box()[2::3] == pytest.approx((-4.0, bodies[0].levels()[1]), abs=1e-5)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("diameter", "above", "pinion_hub", "code"),
     [pytest.param(34.0, 0.3, 0.0, 0, marks=pytest.mark.heavy), (34.0, 8.0, 0.0, 1),
