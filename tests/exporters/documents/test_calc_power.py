@@ -8,6 +8,7 @@ import itertools
 import json
 import math
 import re
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -31,8 +32,13 @@ CASES = {case["id"].removeprefix("004."): case for case in ROWS}
 TABLE_HEADS = ["x (mm)", "y (mm)", "δ (deg)", "β (deg)", "θ (deg)", "n_I", "n_II", "φ_6 (deg)"]
 
 
+@cache
+def _told(topic: str, *keys: str) -> str:
+    return calculate(topic, keys, "json", "en")
+
+
 def calculated(topic: str, *keys: str) -> dict[str, Any]:
-    return json.loads(calculate(topic, keys, "json", "en"))
+    return json.loads(_told(topic, *keys))
 
 
 def rows(*keys: str) -> list[dict[str, str]]:

@@ -108,10 +108,10 @@ def test_a_spoiled_drawing_is_caught(tmp_path: Path, spoil: Any) -> None:
 
 def test_a_step_is_made_and_read_back_without_the_kernel(tmp_path: Path) -> None:
     scene = write_scene(tmp_path / "s.toml", {"g": part_keys(GEARS["plain"])}, [STEP])
-    code = "import sys; sys.modules['OCP'] = None; from exporters.command.cli import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", code]
-    subprocess.run([*command, "build", str(scene), "--out", str(tmp_path / "out")], check=True, capture_output=True)
-    subprocess.run([*command, "verify", str(tmp_path / "out" / "s" / "g.step")], check=True, capture_output=True)
+    code = "import sys; sys.modules['OCP'] = None; from exporters.command.cli import main; "
+    code += "scene, out, file = sys.argv[1:]; sys.exit(main(['build', scene, '--out', out]) or main(['verify', file]))"
+    files = [str(scene), str(tmp_path / "out"), str(tmp_path / "out" / "s" / "g.step")]
+    subprocess.run([sys.executable, "-c", code, *files], check=True, capture_output=True)
 
 
 @pytest.fixture(scope="module")

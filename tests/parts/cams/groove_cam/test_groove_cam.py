@@ -181,7 +181,8 @@ def test_pieces_are_the_layers_of_the_disk(tmp_path: Path) -> None:
     parts |= {p: {"kind": "groove_piece", "of": "cam", "piece": p} for p in ("core", "ring", "floor")}
     file = tmp_path / "s.toml"
     file.write_text(scene(parts, "dxf", "stl"), encoding="utf-8")
-    assert run("build", file, "--out", tmp_path / "o") == 0
+    pieces = (word for p in ("core", "ring", "floor") for word in ("--part", p))
+    assert run("build", file, "--out", tmp_path / "o", *pieces) == 0
     made = parts_of(parts)
     volume = sum(made[p].to_trimesh(0.002).volume for p in ("core", "ring", "floor"))
     assert volume == pytest.approx(made["cam"].to_trimesh(0.002).volume, rel=1e-5)

@@ -115,6 +115,7 @@ assembly = true
 
 [[exports]]
 format = "stl"
+tolerance = 0.05
 parts = ["wheel"]
 """
 
