@@ -19,7 +19,7 @@ from tests.exporters.making import run, table, write_scene
 Keys = dict[str, Any]
 SMALL: Keys = {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17}
 LARGE = SMALL | {"number_of_teeth": 38}
-EXPORTS = (
+EXPORTS: tuple[Keys, ...] = (
     {"format": "svg"},
     {"format": "dxf", "purpose": "assembly", "paper": "A2", "scale": "1:2", "tolerance": 0.01},
 )
