@@ -33,7 +33,7 @@ _COMMAND = rf"([MLAZ])((?:[\s,]*{_NUMBER})*)"
 
 
 def read_svg(file: Path) -> ReadOutlines:
-    """The circles and closed paths of an SVG in mm, y turned up again, as LaserGRBL cuts them: all circles first."""
+    """The circles and closed paths of an SVG in mm, y turned up again, in an order that every program cuts them in."""
     from xml.etree import ElementTree
 
     try:
@@ -46,7 +46,9 @@ def read_svg(file: Path) -> ReadOutlines:
         raise ReadError("one unit of the SVG's view box is not one mm")
     loops: list[Loop] = []
     strokes: list[Complex] = []
-    for element in sorted(root.iter(), key=lambda e: e.tag == f"{_SVG}path"):
+    shapes = [e.tag for e in root.iter() if e.tag.removeprefix(_SVG) in ("circle", "path")]
+    refuse_if(shapes != sorted(shapes), "a circle stands behind a path, before which LaserGRBL cuts it")
+    for element in root.iter():
         tag = element.tag.removeprefix(_SVG)
         if tag not in _KNOWN or (tag == "svg") != (element is root):
             raise ReadError(f"an element <{tag}> stands among the outlines")

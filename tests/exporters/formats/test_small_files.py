@@ -180,13 +180,13 @@ def test_lasergrbl_follows_the_arcs_of_an_svg(tmp_path: Path) -> None:
 
 
 def test_a_disc_that_lasergrbl_cuts_before_its_slot_is_seen(tmp_path: Path) -> None:
-    """The reader takes the outlines of a file as LaserGRBL does."""
     write_laser_svg(tmp_path / "disc.svg", ("CUT_INNER", "CUT_OUTER"), (SLOT, CIRCLE))
     lines = (tmp_path / "disc.svg").read_text("utf-8").splitlines()
     style = lines[-2].partition(' id="')[2]
     lines[-2] = f'<circle cx="62" cy="62" r="60" id="{style}'
     (tmp_path / "disc.svg").write_text("\n".join(lines), "utf-8")
-    assert [loop.layer for loop in read_svg(tmp_path / "disc.svg").loops] == ["CUT_OUTER", "CUT_INNER"]
+    with pytest.raises(ReadError, match="a circle stands behind a path"):
+        read_svg(tmp_path / "disc.svg")
 
 
 @pytest.mark.parametrize(("value", "decimals", "text"), [

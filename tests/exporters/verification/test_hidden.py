@@ -257,7 +257,7 @@ SAID: dict[str, dict[str, str]] = {
     "g.svg": {"in style": "the sty", '"': "which may hide or mov", "hidden picture": "svg has a display",
               "group": "<g> stands among", "picture in it": "<svg> stands among", "colour": "is named CUT_",
               "fill": "the style", "no line": "the style", "broad line": "the style", "style sheet": "holds <\\?xml-st",
-              "entity": "holds <!DOCTYP", "animation": "<set> stands among", "order": "CUT_INNER comes after"},
+              "entity": "holds <!DOCTYP", "animation": "<set> stands among", "order": "a circle stands behind a path"},
     "g.3mf": {"support": 'type = "support"', "not printed": 'printable = "0"', "extension": "requiredextensions =",
               "colour": "#4080c0 instead of #c08040", "see-through": "can be seen through", "of a triangle": "has pid",
               "painted": "holds <", "path": "<item> of the 3MF has {", "another model": "begins with",
