@@ -447,6 +447,8 @@ class _Page:
             title = N_("Positions of the crank over one turn")
             page.section("Over a turn")
             if self._slides:
+                # positions stand beside the dead points
+                travel = np.append(travel, self._along(self.levers.moved(self._dead_points()[0]).place(name)))
                 page.add("output_stroke", float(np.ptp(travel)), of=of)
             page.add("greatest_output_velocity", float(np.abs(self.turn.velocity(name)).max()) / 1000, of=of)
             page.add("greatest_output_acceleration", float(np.abs(self.turn.acceleration(name)).max()) / 1000, of=of)
@@ -476,19 +478,24 @@ class _Page:
         """The speed of the output with its sense: along the guide, or as its lever turns."""
         return self._along(at.velocity(self._output)) if self._slides else at.turning(list(at.links)[-1])[0]
 
-    def _ways(self) -> None:
-        """The dead points of an output that goes to and fro, the crank's angles of both ways, and their ratio."""
-        page, speeds, step = self.page, self._going(self.turn), 2 * math.pi / self.fine
+    def _dead_points(self) -> tuple[Real, Real]:
+        """Angles of the crank at which the output turns back, rad, and speeds of it behind them."""
+        speeds, step = self._going(self.turn), 2 * math.pi / self.fine
         after = np.roll(speeds, -1)
         (turns,) = np.nonzero((speeds > 0) != (after > 0))
-        if len(turns) != 2:
-            # an output that goes round, or stops more often
-            return
         before = np.asarray(self.start + step * turns, float)
         found = bracketed_roots(
             lambda angles: self._going(self.levers.moved(angles)), before, before + step, speeds[turns], after[turns]
         )
-        low, high = np.mod(found, 2 * math.pi)[:: 1 if after[turns[0]] > 0 else -1]
+        return found, after[turns]
+
+    def _ways(self) -> None:
+        """The dead points of an output that goes to and fro, the crank's angles of both ways, and their ratio."""
+        page, (found, after) = self.page, self._dead_points()
+        if len(found) != 2:
+            # an output that goes round, or stops more often
+            return
+        low, high = np.mod(found, 2 * math.pi)[:: 1 if after[0] > 0 else -1]
         forward = float((high - low) % (2 * math.pi))
         backward = 2 * math.pi - forward
         page.told(rear_dead_point_deg=math.degrees(low), front_dead_point_deg=math.degrees(high))
