@@ -10,6 +10,7 @@ import ezdxf
 import pytest
 
 from exporters.command.cli import main
+from tests.exporters.making import dxf_chains
 
 PAIR = """
 [defaults]
@@ -103,9 +104,9 @@ def test_a_grid_stands_about_its_axle(turned: float | None, tmp_path: Path) -> N
     assert main(["check", scene]) == 0
     assert main(["build", scene, "--out", str(tmp_path), "--part", "frame"]) == 0
     found = []
-    for entity in ezdxf.readfile(tmp_path / "s" / "frame.dxf").query('LWPOLYLINE[layer=="CUT_INNER"]'):
-        one, two = (complex(p[0], p[1]) for p in entity.get_points("xy"))  # type: ignore[attr-defined]
-        if abs(one - two) < 5:
+    for hole in dxf_chains(tmp_path / "s" / "frame.dxf"):
+        one, two = hole.vertices[:2]
+        if hole.layer == "CUT_INNER" and abs(one - two) < 5:
             found.append((one + two) / 2)
     turn = 1.0 if turned is None else complex(math.cos(math.radians(turned)), -math.sin(math.radians(turned)))
     axle = 0j if turned is None else complex(3, -2) * turn
