@@ -36,8 +36,8 @@ def at(file: Path, name: str, share: float) -> tuple[complex, float]:
     for element in (group, group.find(f"{SVG}g")):
         assert element is not None
         move = element.find(f"{SVG}animateTransform")
-        text = re.search(r"\((.*)\)", element.get("transform", "()")) if move is None else None
-        rows = [text[1]] if text else move.get("values", "").split(";")  # type: ignore[union-attr]
+        stands = element.get("transform", "()").partition("(")[2].rpartition(")")[0]
+        rows = [stands] if move is None else move.get("values", "").split(";")
         values = np.array([[float(x) for x in row.split(",")] for row in rows])
         where = np.linspace(0, 1, len(values))
         found.append([float(np.interp(share, where, column)) for column in values.T])

@@ -774,8 +774,8 @@ def test_a_wedge_cam_has_no_size_twice(tmp_path: Path, over: bool) -> None:
 def test_holes_at_many_places_are_numbered_and_stand_in_a_table(tmp_path: Path) -> None:
     """As it was: 30 of them had a size for each x and each y, for which no paper had room."""
     places = [(7.0 * k - 100.0, 13.0 * k * k % 101 - 50.0) for k in range(1, 28)]
-    plate = {"kind": "plate", "width": 200.0, "height": 120.0, "face_width": 6.0,
-             "holes": [{"at": list(p), "diameter": 4.0 + k % 2} for k, p in enumerate(places)]}  # fmt: skip
+    holes = [{"at": list(p), "diameter": 4.0 + k % 2} for k, p in enumerate(places)]
+    plate = {"kind": "plate", "width": 200.0, "height": 120.0, "face_width": 6.0, "holes": holes}
     (job,) = jobs(plate, formats=("dxf",))
     job.write({}, tmp_path / job.path)
     assert job.verify(tmp_path / job.path, 0.0).failures == ()
@@ -786,8 +786,7 @@ def test_holes_at_many_places_are_numbered_and_stand_in_a_table(tmp_path: Path) 
     for k, (x, y) in enumerate(places, 1):
         assert {str(k), f"{x + left:.3f}", f"{y + low:.3f}"} <= texts
     assert {"4.000", "5.000"} <= texts
-    few = plate | {"holes": plate["holes"][:4]}  # type: ignore[index]
-    (job,) = jobs(few, formats=("dxf",))
+    (job,) = jobs(plate | {"holes": holes[:4]}, formats=("dxf",))
     job.write({}, tmp_path / job.path)
     assert len(sizes(tmp_path / job.path)) == 2 + 8 + 2
 

@@ -45,7 +45,8 @@ def scene_of(language: str = "en", **export: Any) -> Any:
 
 def job_of(**export: Any) -> SheetJob:
     (job,) = plan_build(scene_of(**export), "t", [], []).sheets
-    return job  # type: ignore[return-value]
+    assert isinstance(job, SheetJob)
+    return job
 
 
 def paths_of(page: Any) -> Paths:
