@@ -91,13 +91,18 @@ def root_of(file: Path) -> Element:
 
 def _layer(element: Element) -> str:
     """What is done along an outline, as its colour tells a laser program; its id must not tell otherwise."""
-    style, name = re.sub(r"\s|;\s*$", "", element.get("style", "").lower()), element.get("id", "").upper()
+    style, name = re.sub(r"\s|;\s*$", "", element.get("style", "").lower()), _named(element.get("id", ""))
     shown = _STYLE.fullmatch(style)
     if shown is None or shown[1] not in _LAYERS or not 0 < float(shown[2]) <= _WIDEST:
         raise ReadError(f'an outline of the SVG has the style "{style}"')
     layer = _LAYERS[shown[1]]
     refuse_if(name and name != layer, f"an outline of the SVG is named {name}, but coloured as {layer}")
     return layer
+
+
+def _named(name: str) -> str:
+    """The layer that an id names: those of one layer are numbered from the second on."""
+    return name.partition("-")[0].upper()
 
 
 def _millimetres(text: str) -> float:

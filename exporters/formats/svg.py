@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from html import escape
 from pathlib import Path
@@ -56,18 +57,22 @@ def write_laser_svg(
     middle = round(max(float(np.abs(b.geometry.vertices).max()) for b in boundaries), _PICTURE_DECIMALS) + _MARGIN
     page, origin = (2 * middle * (1 + 1j), middle * (1 + 1j)) if board is None else (board, 1j * board.imag)
     lines = [page_head(page.real, page.imag)]
-    lines += [f'<path d="{stroke_data(stroke, origin)}" {_look("ENGRAVE")}/>' for stroke in strokes]
+    told = Counter[str]()
+    lines += [f'<path d="{stroke_data(stroke, origin)}" {_look("ENGRAVE", told)}/>' for stroke in strokes]
     ahead = not strokes
     for layer, boundary in zip(layers, boundaries, strict=True):
         ahead = ahead and _is_circle(boundary.geometry)
-        lines.append((_circle if ahead else _path)(boundary.geometry, _look(layer), origin))
+        lines.append((_circle if ahead else _path)(boundary.geometry, _look(layer, told), origin))
     save(file, lines)
     counts = {"shapes": len(boundaries), **({"strokes": len(strokes)} if strokes else {})}
     return {**counts, "vertices": sum(len(b.geometry) for b in boundaries)}
 
 
-def _look(layer: str) -> str:
-    return f'id="{layer.lower()}" style="fill:none;stroke:{STROKES[layer]};stroke-width:0.1"'
+def _look(layer: str, told: Counter[str]) -> str:
+    """The id and style of an outline of a layer, of which so many have been ``told``."""
+    told[layer] += 1
+    name = layer.lower() if told[layer] == 1 else f"{layer.lower()}-{told[layer]}"
+    return f'id="{name}" style="fill:none;stroke:{STROKES[layer]};stroke-width:0.1"'
 
 
 def stroke_data(points: Complex, origin: complex) -> str:

@@ -119,6 +119,11 @@ def svg_shapes(file: Path) -> tuple[ElementTree.Element, list[ElementTree.Elemen
     return root, [e for e in root.iter() if e is not root]
 
 
+def svg_layer(shape: ElementTree.Element) -> str:
+    """What an outline's id says of it; ids differ, so that a second one of a layer has a number."""
+    return re.sub(r"-\d+$", "", shape.attrib["id"])
+
+
 def svg_chains(file: Path) -> list[Chain]:
     """Outlines of an SVG about the middle of its view box, y up."""
     root, shapes = svg_shapes(file)
@@ -129,7 +134,7 @@ def svg_chains(file: Path) -> list[Chain]:
         if shape.tag.endswith("circle"):
             centre = complex(float(shape.attrib["cx"]), -float(shape.attrib["cy"])) - middle
             radius = float(shape.attrib["r"])
-            chains.append(Chain(centre + radius * np.array([1, -1]), np.full(2, math.pi), shape.attrib["id"]))
+            chains.append(Chain(centre + radius * np.array([1, -1]), np.full(2, math.pi), svg_layer(shape)))
         else:
             chains.append(_svg_path(shape, middle))
     return chains
@@ -158,7 +163,7 @@ def _svg_path(shape: ElementTree.Element, middle: complex) -> Chain:
             sweeps.append(-sweep if clockwise else sweep)
             at += 8
     assert abs(points[-1] - points[0]) < 1e-9
-    return Chain(np.array(points[:-1]) - middle, np.array(sweeps), shape.attrib["id"])
+    return Chain(np.array(points[:-1]) - middle, np.array(sweeps), svg_layer(shape))
 
 
 @dataclass(frozen=True)

@@ -35,6 +35,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Approximation, Contour, edge_points
 from parts.base.readback import ReadError
 from parts.solids.mesh import Mesh
+from tests.exporters.making import svg_layer
 
 SPLINE = fit_spline(Involute(20.0, 0.3, 0.3, 1.1), 1e-4, degree=3, continuity=2).spline
 
@@ -137,7 +138,7 @@ def lasergrbl(file: Path) -> list[tuple[str, float]]:
     that an arc has begun is cut in 12 chords.
     """
     root = ElementTree.parse(file).getroot()
-    cut = [(e.attrib["id"], 0.0) for e in root if e.tag.endswith("circle")]
+    cut = [(svg_layer(e), 0.0) for e in root if e.tag.endswith("circle")]
     for path in (e for e in root if e.tag.endswith("path")):
         at, worst = 0j, 0.0
         for command, text in re.findall("([MLA])([^MLAZ]*)", path.attrib["d"]):
@@ -148,7 +149,7 @@ def lasergrbl(file: Path) -> list[tuple[str, float]]:
                 chords = 12 * math.ceil(turn / (math.pi / 2))
                 worst = max(worst, numbers[0] * (1 - math.cos(turn / chords / 2)))
             at = to
-        cut.append((path.attrib["id"], worst))
+        cut.append((svg_layer(path), worst))
     return cut
 
 

@@ -85,7 +85,9 @@ def test_every_name_lies_within_clear_material_by_half_a_stroke(made: Path, part
         assert shapely.distance(shapely.boundary(material), name) >= STROKE
         # engraved before anything is cut loose
         assert layers == sorted(layers, key=["stroke", "CUT_INNER", "CUT_OUTER"].index)
-    assert (made / f"{part}.svg").read_text().count('id="engrave"') == len(lines)
+    ids = re.findall(' id="([^"]*)"', (made / f"{part}.svg").read_text())
+    assert sum(name.startswith("engrave") for name in ids) == len(lines)
+    assert len(set(ids)) == len(ids)
 
 
 def test_a_name_without_room_stands_on_a_tag_and_is_told(made: Path) -> None:

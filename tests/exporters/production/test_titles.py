@@ -142,7 +142,7 @@ def test_pictures_and_sheets_show_them(folder: Path) -> None:
 
 
 def test_engraved_is_what_there_are_letters_for(folder: Path) -> None:
-    strokes = {name: (folder / f"{name}.svg").read_text().count('id="engrave"') for name in ("pinion", "wheel")}
+    strokes = {name: (folder / f"{name}.svg").read_text().count('id="engrave') for name in ("pinion", "wheel")}
     # "z 12 m 3 x 0.1" alone, where "Колесо z 20 m 3" has its title
     assert strokes["pinion"] < strokes["wheel"]
 
