@@ -248,6 +248,10 @@ class Toothed(Touching, kw_only=True):
         return Standing(direction, abs(spoke), math.remainder(second[1] - right, pitch), play, arm)
 
 
+# why a tooth is refused alone whose limit is that of its own tip: with what its mates leave of that it goes farther
+TIP_ALONE = ("tooth_pointed", "flanks_meet_below_form", "no_involute_below_tip", "fillets_meet")
+
+
 class MateKind(Generic[K, A, B]):
     """A kind of mate. ``K``: its keys (a msgspec struct, tagged with its name), ``A``, ``B``: things of both parts.
 

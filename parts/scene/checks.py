@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
 from geometry.base.nearest import kept, nearer, nearest
-from parts.base.mate import End, MateKeys, MateKind, Mating
+from parts.base.mate import TIP_ALONE, End, MateKeys, MateKind, Mating
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.registry import KINDS
@@ -197,7 +197,7 @@ def thing_of(
     try:
         return kind.thing(keys, specs)
     except ParameterError as refusal:
-        if refusal.code != "tooth_pointed":
+        if refusal.code not in TIP_ALONE:
             raise
         name, tips = refusal.name, list[float]()
         for mate in mates:
@@ -212,7 +212,7 @@ def thing_of(
             return kind.thing(tried(keys, "tip_diameter", min(tips)), specs)
         except ParameterError as other:
             # what else is wrong with it, in a key that it has
-            if other.code != "tooth_pointed" and other.name != "tip_diameter":
+            if other.code not in TIP_ALONE and other.name != "tip_diameter":
                 raise
 
         def works(value: float) -> bool:

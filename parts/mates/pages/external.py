@@ -20,6 +20,7 @@ from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.limits import checked_gear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
+from parts.base.mate import TIP_ALONE
 from parts.base.refusal import REMOVED, SceneError
 from parts.base.schema import replaced
 from parts.base.texts import N_, in_context
@@ -210,14 +211,14 @@ def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *
         return checked_gear(normal[index], helix)
     except ParameterError as error:
         told = error
-        if beside and error.code == "tooth_pointed":
+        if beside and error.code in TIP_ALONE:
             one, two = (transverse_gear(normal[i], helix) for i in (index, 1 - index))
             with suppress(ParameterError):
                 tip = tip_beside(one, two, keys.working_centre_distance)
                 return checked_gear(replace(normal[index], given_tip_diameter=tip), helix)
-            if error.name == "profile_shift_coefficient":
+            if error.name in ("profile_shift_coefficient", "circumferential_thinning"):
                 path = f"{name}.{error.name}"
-                told = nearer(error, lambda shift: _is_pair(replaced(keys, path, shift)))
+                told = nearer(error, lambda value: _is_pair(replaced(keys, path, value)))
         raise refusal(TOPIC, told, name, keys) from error
 
 

@@ -16,6 +16,7 @@ import pytest
 from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import TOPICS, calculate, sheet_of
 from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
 from parts.base.texts import words
 from parts.mates.pages import shift_choice
@@ -624,6 +625,45 @@ def test_wrong_input_gets_one_clear_line(
     told = refused(*arguments)
     assert (told.key, told.code, told.nearest and told.nearest.value) == (key, code, nearest)
     assert complaint(capsys, "calc", *arguments) == f"higherpair: {told}\n"
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "code"),
+    [
+        ("first.profile_shift_coefficient", 6.94, "no_involute_below_tip"),
+        ("first.profile_shift_coefficient", 2.776, "flanks_meet_below_form"),
+        ("first.circumferential_thinning", 1000.0, "fillets_meet"),
+        ("second.circumferential_thinning", 1000.0, "flanks_meet_below_form"),
+    ],
+)
+def test_the_limit_of_a_tooth_is_that_with_the_tip_which_its_mate_leaves_it(key: str, value: float, code: str) -> None:
+    """Before: that of the tooth alone, of 6.94 a shift of 0.8766, where beside the mate 1.8842 is made."""
+    pair = "gear-pair module=10 first.number_of_teeth=13 second.number_of_teeth=21 second.profile_shift_coefficient=0.4"
+    told = refused(*pair.split(), f"{key}={value}")
+    assert (told.key, told.code) == (f"gear-pair.{key}", code)
+    assert told.nearest is not None
+    most = told.nearest.value
+    assert isinstance(most, float)
+    values_of(f"{pair} {key}={most}")
+    # a thousandth of the module farther in mm, of a coefficient in modules
+    step = 1e-3 if key.endswith("coefficient") else 1e-2
+    assert refused(*pair.split(), f"{key}={most + step}").key == f"gear-pair.{key}"
+
+
+def test_what_is_offered_for_an_element_of_a_list_has_been_tried() -> None:
+    """Before: return_ in place of a rise for the whole turn, and then the rise in place of that."""
+    cam = ("cam", "follower=roller", "lift=20", "follower_radius=8", "base_circle_radius=40")
+
+    def phases(*rows: tuple[str, float]) -> str:
+        told = (f'{{move="{move}",angle_deg={angle},law="sine"}}' for move, angle in rows)
+        return f"phases=[{','.join(told)}]"
+
+    for move in ("rise", "return_"):
+        told = refused(*cam, phases((move, 360.0)))
+        assert (told.key, told.nearest) == ("cam.phases[1].move", None)
+    told = refused(*cam, phases(("rise", 150.0), ("return_", 150.0)))
+    assert (told.key, told.nearest) == ("cam.phases[2].angle_deg", Nearest(210.0))
+    calculate(cam[0], [*cam[1:], phases(("rise", 150.0), ("return_", 210.0))], "json", "en")
 
 
 def test_a_shift_table_cell_that_was_mended_is_flagged() -> None:

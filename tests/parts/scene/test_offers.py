@@ -148,6 +148,8 @@ def test_an_offer_keeps_what_stands_beside_it(part: dict[str, Any], key: str) ->
         # a limit of the part alone, where one of its mate lies beyond it
         ("helical pair", "b.profile_shift_coefficient", -10.0, True),
         ("rack_and_pinion", "rack.pressure_angle_deg", 40.0, True),
+        # before: 1.4211, the limit of the tooth alone, where beside its mate 2.1778 has a land
+        ("helical pair", "a.profile_shift_coefficient", 10.0, True),
         # before: what is offered for another key than the wrong one, which the mate then refused
         ("thesis_internal_pair", "ring.module", 9.0, True),
         # before: no more than a rounding without room; its mate has another
