@@ -19,7 +19,7 @@ from parts.base.psv import rows_of
 from parts.base.readback import ReadError
 from parts.base.refusal import SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import as_written, plain_numbers
+from parts.base.schema import as_written, plain_numbers, steps_of
 from parts.base.texts import Words, languages
 from parts.base.texts import words as told
 from parts.pages.inputs import GEARS, PLACE, table_of
@@ -162,35 +162,57 @@ def _as_typed(
     refusal: SceneError, topic: str, typed: Mapping[str, Any], begun: Callable[[Mapping[str, Any]], object]
 ) -> SceneError:
     """A refusal in the key as it was typed, maybe once for both bodies of a pair; what it offers has been tried."""
-    head, *path = refusal.key.split(".")
-    # of elements, and of two keys at once, nothing else was typed
-    if head != topic or not all(step.isidentifier() for step in path):
+    path = steps_of(refusal.key.removeprefix(f"{topic}."))
+    # of two keys at once nothing else was typed
+    if path == steps_of(refusal.key) or not all(isinstance(step, int) or step.isidentifier() for step in path):
         return refusal
-    if path[0] in GEARS and len(path) > 1 and path[1] in typed and path[1] not in typed.get(path[0], {}):
-        del path[0]
+    key, of_gear = refusal.key, path[0] in GEARS and len(path) > 1
+    if of_gear and path[1] in typed and path[1] not in typed.get(str(path[0]), {}):
+        key = f"{topic}.{key.removeprefix(f'{topic}.{path.pop(0)}.')}"
+    # nor of elements of a list that a scene has
+    if _retyped(typed, path, refusal.value) is None:
+        return refusal
 
     def cure() -> Nearest | None:
         found = refusal.nearest
         for _ in range(MOST_OFFERS):
             if found is None or found.side == "meant":
                 return found
-            changed = owner = deepcopy(dict(typed))
-            for step in path[:-1]:
-                owner = owner.setdefault(step, {})
-            owner[path[-1]] = found.value
-            if found.value is None:
-                del owner[path[-1]]
             try:
-                begun(changed)
+                begun(_retyped(typed, path, found.value) or typed)
             except SceneError as again:
                 found = again.nearest if again.key == refusal.key else None
             else:
                 return found
         return None
 
-    told = refusal.at(".".join((topic, *path)))
+    told = refusal.at(key)
     told.offer(cure)
     return told
+
+
+def _retyped(typed: Mapping[str, Any], path: Sequence[str | int], value: object) -> dict[str, Any] | None:
+    """What was typed with another value at a place, None: without it; no table where no such element was typed."""
+    made = deepcopy(dict(typed))
+    owner: Any = made
+    for step in path[:-1]:
+        if isinstance(step, str):
+            owner = owner.setdefault(step, {})
+        elif isinstance(owner, list):
+            if step >= len(owner):
+                return None
+            owner = owner[step]
+        # else one table stands for a list of one
+        elif not owner:
+            return None
+    last = path[-1]
+    if isinstance(last, int) and not (isinstance(owner, list) and last < len(owner)):
+        return None
+    if value is None:
+        owner.pop(last, None)
+    else:
+        owner[last] = value
+    return made
 
 
 def _begun(
