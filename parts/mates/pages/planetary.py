@@ -218,10 +218,14 @@ class _Page:
             return replace(wish, ratios=(ratio - room, ratio + room))
 
         def cure() -> Nearest | None:
-            """The ratio nearest to the wanted one that has sets."""
+            """The ratio nearest to the wanted one that has sets, in six digits where the tolerance takes these."""
             tried = (nearest_ratio(within(Fraction(percent))) for percent in (1, 3, 10, 40, 99))
             found = next((one for one in tried if one is not None), None)
-            return None if found is None else Nearest(float(found))
+            if found is None:
+                return None
+            short = float(f"{float(found):.6g}")
+            off = abs(exact(short) - found) * 100
+            return Nearest(short if off <= exact(keys.ratio_tolerance_percent) * abs(found) / 2 else float(found))
 
         sets = found_sets(within(exact(keys.ratio_tolerance_percent)))
         if not sets:

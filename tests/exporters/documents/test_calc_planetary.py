@@ -216,6 +216,15 @@ def test_the_ratio_that_a_refusal_names_works() -> None:
     assert calculated(f"ratio={ratio}")["values"]["sets_found"] >= 1
 
 
+def test_a_ratio_is_told_in_six_digits_where_the_tolerance_takes_them() -> None:
+    """Before: 12.4615384615, which is 162/13."""
+    assert refused("ratio=1000").endswith("; 12.4615 works")
+    assert calculated("ratio=12.4615")["values"]["sets_found"] >= 1
+    # where it takes none beside it, all digits
+    assert refused("ratio=1000", "ratio_tolerance_percent=1e-6").endswith("; 12.4615384615 works")
+    assert calculated("ratio=12.4615384615", "ratio_tolerance_percent=1e-6")["values"]["sets_found"] >= 1
+
+
 def test_helical_sets_without_shifts_tell_their_contact_ratio() -> None:
     """Before: a traceback, of a condition that had no words."""
     assert "small contact ratio" in calculate("planetary", ("teeth=[24,24,72]", "helix_angle_deg=60"), "text", "en")
