@@ -55,8 +55,11 @@ Follower = Annotated[
 Lift = Annotated[float, part_mm("lift H of a translating follower", least=0), start(20.0)]
 Swing = Annotated[float, degrees("swing of an oscillating follower", least=0, below=180)]
 Phases = Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)]
+# a row of a table of the motion: the cam angle, where the follower stands
+_Told = Annotated[float, Meta(ge=-MOST_LENGTH, le=MOST_LENGTH)]
+MotionRow = tuple[_Told, _Told]
 MotionTable = Annotated[
-    list[tuple[float, float]],
+    list[MotionRow],
     Meta(
         min_length=3,
         max_length=2000,
@@ -96,7 +99,7 @@ class Moved(Stroke, Protocol):
     """Keys of a follower's motion over a turn."""
 
     phases: list[PhaseTable] | None
-    motion_table: list[tuple[float, float]] | None
+    motion_table: list[MotionRow] | None
     table_tolerance: float
 
 

@@ -32,6 +32,7 @@ from parts.cams.wheel import DiskKeys, check_disk
 from parts.keys.base import degrees, mm, part_mm, start
 from parts.keys.cam import (
     Follower,
+    MotionRow,
     Phases,
     TableTolerance,
     check_stroke,
@@ -80,7 +81,7 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
     lift: Annotated[float, part_mm("travel of a driven slider", least=0)] = 0.0
     swing_deg: Annotated[float, degrees("swing of a driven rocker", least=0, below=180), start(24.0)] = 0.0
     phases: Annotated[Phases, with_own_laws(turn("sine"))] | None = None
-    motion_table: Annotated[list[tuple[float, float]], _MOTION_TABLE] | None = None
+    motion_table: Annotated[list[MotionRow], _MOTION_TABLE] | None = None
     table_tolerance: TableTolerance = 0.0
     least_curvature_radius: Annotated[float, part_mm("rho: least convex radius of the cam", least=0)] = 0.0
 

@@ -152,6 +152,8 @@ def cam_of(keys: CamSpec) -> DiskCam:
             raise ParameterError("centre_distance", None, "distance_missing")
         return _rocker(keys, swing, motion, swing.centre_distance, base)
     except ParameterError as refusal:
+        if refusal.name == "lift" and keys.motion_table is not None:
+            raise refusal.told_of("motion_table", None, None) from refusal
         name, factor = _IN_KEYS[swing is not None].get(refusal.name, (refusal.name, None))
         raise _fitted(keys, refusal.renamed(name, factor)) from refusal
 

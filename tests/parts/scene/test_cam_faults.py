@@ -114,6 +114,9 @@ def test_calc_names_the_kind_that_works(capsys: pytest.CaptureFixture[str]) -> N
         ([(0.0, 0.0), (20.0, 1.0), (360.0, 0.0)], "[3][1]", 360.0, "table_too_short"),
         ([(0.0, 2.0), (120.0, 2.0), (240.0, 2.0)], "", 3, "table_without_lift"),
         ([(0.0, 0.0), (120.0, 10.0), (240.0, 6.0), (360.0, 3.0)], "[4][2]", 3.0, "last_row_not_as_first"),
+        # before: of a barrel 1e20 mm were made, and 1e300 ended in a traceback
+        ([(0.0, 0.0), (120.0, 1e20), (240.0, 6.0)], "[2][2]", 1e20, "not_allowed"),
+        ([(0.0, 0.0), (1e300, 2.0), (240.0, 6.0)], "[2][1]", 1e300, "not_allowed"),
     ],
 )
 def test_tables_are_refused_in_degrees(rows: list[tuple[float, float]], key: str, value: float, code: str) -> None:
@@ -126,6 +129,16 @@ def test_tables_are_refused_in_degrees(rows: list[tuple[float, float]], key: str
     if code in ("table_not_from_zero", "last_row_not_as_first"):
         assert refusal.value.nearest is not None
         assert refusal.value.nearest.value == 0
+
+
+def test_a_table_by_which_an_arm_swings_too_far_is_refused_itself() -> None:
+    """Before: swing_deg = 0.0, which nobody had typed."""
+    rows = [[0.0, 0.0], [120.0, 181.0], [240.0, 6.0]]
+    arm = "oscillating = { centre_distance = 90.0, arm_length = 70.0 }\n"
+    text = _CAM.replace("lift = 20.0\n", "") + f"motion_table = {rows}\n{arm}"
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_toml(text.encode(), "scene", "scene"), "scene")
+    assert (refusal.value.key, refusal.value.code) == ("parts.gear.motion_table", "swings_beyond_centres")
 
 
 def test_holes_at_one_place_are_refused_without_warnings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
