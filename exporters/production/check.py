@@ -16,7 +16,7 @@ from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.instances import DriveSpec
-from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
+from parts.scene.placing import Closeness, Condition, PlacedMate, Placing, seen_from
 from parts.scene.standing import Instance
 from parts.texts.checks import CLOSE, OFF_CENTRE, called, condition_message, overlap_told
 from parts.texts.findings import findings_told
@@ -69,10 +69,13 @@ def scene_checks(
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
             if transmission:
                 _add_transmission(found, mate)
-            turns = [abs(turned) for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
+            turns = [turned for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
-                found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
+                found["driven_pitches"] = abs(turns[0]) * mate.mating.teeth[0]
+                first, second = ((i.centre, i.rotation) for i in seen_from(mate.first, mate.second))
+                if left := mate.mating.driven(first, second, sum(turns)):
+                    found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:

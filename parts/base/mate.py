@@ -206,6 +206,10 @@ class Mating(Joined, kw_only=True):
         """Conditions of both together that are not kept."""
         return ()
 
+    def driven(self, first: Pose, second: Pose, turns: float) -> tuple[Finding, ...]:
+        """Conditions not kept on the way from how both stand, where the first turns so often against its carrier."""
+        return ()
+
     def quantities(self) -> dict[str, Any]:
         """What the calculation says, for reports."""
         return {}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -170,3 +171,29 @@ def test_what_stands_by_hand_is_held_within_what_places_are_good_to() -> None:
         assert ("transmission_error" in mate) is met
         if met:
             assert mate["tolerance"] == 1e-5
+
+
+@pytest.mark.parametrize("start", [0, 4])
+@pytest.mark.parametrize("turns", [0.04, 0.24, 0.26, -0.24, -0.26, -0.46])
+def test_a_rack_that_its_drive_takes_out_of_the_mesh_is_told(
+    turns: float, start: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Seen where the drive has ended: whether any of the rack still lies across from the pinion's axis."""
+    raw: Raw = {
+        "parts": {"rack": RACK, "pinion": PINION},
+        "instances": {"rack": {"at": [20.0, 2 * math.pi * start, 0.0], "rotation_deg": 90.0}},
+        "mates": [{"kind": "rack_pair", "first": "pinion", "second": "rack"}],
+        "drives": [{"instance": "pinion", "turns": turns}],
+    }
+    _, parts, placing = made(raw)
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 5))
+                             for s in parts["rack"].section(0.0).region.outer.segments()])  # fmt: skip
+    (rack,) = [i for i in placing.at([turns]) if i.id == "rack"]
+    placed = (points * cmath.exp(1j * rack.rotation) + rack.centre).imag
+    out = placed.min() > 0 or placed.max() < 0
+    code, found = checked(raw, tmp_path, capsys)
+    told = [f for f in found["mates"][0]["findings"] if f["code"] == "rack_runs_out"]
+    assert (code, bool(told)) == (0, out)
+    if told:
+        assert told[0]["value"] == pytest.approx(abs(rack.centre.imag), abs=1e-9)
+        assert told[0]["limit"] == pytest.approx(np.ptp(placed) / 2, abs=1e-9)
