@@ -368,8 +368,8 @@ def test_ukrainian_stands_in_the_catalogue_and_not_in_the_code() -> None:
     for index, english in rows_of(str(HOUSE / "parts/pages/symbols.py"), "indices"):
         assert not CYRILLIC.search(english)
         assert len(index) < 8
-    # and materials stand as users write them in scenes of any language
-    own = ("terms.psv", "densities.psv", "indices.psv")
+    # and materials and units stand as users write them in scenes of any language
+    own = ("terms.psv", "densities.psv", "indices.psv", "units.psv")
     tables = [file for file in (HOUSE / "parts").rglob("*.psv") if file.name not in own]
     assert not any(CYRILLIC.search(file.read_text("utf-8")) for file in tables)
     assert cyrillic_in('a = "ok"\nb = "ні"') == [2]
