@@ -51,17 +51,19 @@ def nearest(
 
     ends = [toward] if isinstance(toward, int | float) else toward
     good: float | None = None
-    bad: float = given
+    failed = [given]
     for end in ends:
         if left <= 0:
             return None
         if tried(end):
             good = end
             break
-        # what lies before it is not looked at again
-        bad = end
+        failed.append(end)
     if good is None:
         return None
+    # what lies before the last that failed on the way is not looked at again; other ends may lie beyond it
+    on_way = [one for one in failed if (one - good) * (given - good) > 0]
+    bad = min(on_way, key=lambda one: abs(one - good), default=given)
     if isinstance(good, int) and isinstance(bad, int):
         while abs(good - bad) > 1 and left > 0:
             between = (good + bad) // 2

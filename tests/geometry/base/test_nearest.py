@@ -46,6 +46,14 @@ def test_it_ends_at_the_boundary_on_the_side_that_holds(edge: float, share: floa
     assert further > edge if below else further < edge
 
 
+@pytest.mark.parametrize("ends", [(21.0, 18.9, 0.42, 19.1), (19.1,), (0.0, 20.0), (41.0, 21.0, 5.0, 20.0)])
+def test_ends_that_failed_beyond_one_that_holds_are_no_limit(ends: tuple[float, ...]) -> None:
+    """Before: 19.0001 as the most, of what holds from 19 to 20.94."""
+    assert nearest(lambda value: 19.0 <= value <= 20.94, 40.0, ends) == Nearest(20.94, "at_most")
+    lower = [40.0 - end for end in ends]
+    assert nearest(lambda value: 19.06 <= value <= 21.0, 0.0, lower) == Nearest(19.06, "at_least")
+
+
 @given(edge=st.integers(4, 10_000), more=st.integers(1, 5_000))
 def test_whole_numbers_stay_whole(edge: int, more: int) -> None:
     asked = Counted(edge, below=True)

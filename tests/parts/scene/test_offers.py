@@ -128,6 +128,9 @@ CUT = {"spur_gear": 20, "ring_gear": 60}
              holes=[{"count": 4, "diameter": 5.0, "pitch_circle_diameter": 50.0}]), "hub.diameter"),
         # before: 65.2738, where 59.4519 works
         (SLIDERS | {"driven": {"member": "slider", "start": [25.0, 0.6], "direction_deg": 90.0}}, "coupler_length"),
+        # before: at most 19.0001, the lower end of what works, which goes from 19 to 20.9405
+        (cam(follower="mushroom", follower_radius=50.0, lift=None, swing_deg=20.0,
+             oscillating={"centre_distance": 1.0, "arm_length": 70.0}), "base_circle_radius"),
         *(({"kind": kind, "module": 2.0, "number_of_teeth": z, "cutter": {"number_of_teeth": teeth}},
            "cutter.number_of_teeth") for kind, z in CUT.items() for teeth in (3, 8)),
     ],
