@@ -16,6 +16,8 @@ Real = NDArray[np.float64]
 
 # bisection alone takes some 60
 _MOST_STEPS = 120
+# parts of a step to both sides of a place over which it is seen whether a function rises there
+_STIR = 1e-5
 
 
 class Root(Record):
@@ -94,6 +96,27 @@ def halved(stays: Callable[[Real], NDArray[np.bool_]], low: Real, high: Real, st
         same = stays(middle)
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return low, high
+
+
+def crests(function: Callable[[Real], Real], samples: Real, step: float) -> Real:
+    """Where a vectorised function is greatest within a ``step`` of samples (n,) that their neighbours do not exceed.
+
+    There it is as great on both sides: a bracketed root of the difference over so little that a corner is no matter,
+    nor are the digits, for a place counts by its square.
+    """
+
+    def slope(x: Real) -> Real:
+        return function(x + stir) - function(x - stir)
+
+    stir, low, high = _STIR * step, samples - step, samples + step
+    return bracketed_roots(slope, low, high, slope(low), slope(high))
+
+
+def tops(values: Real) -> NDArray[np.intp]:
+    """Which samples (n,) of a period may stand beside its greatest value: none exceeds them by more than they bend."""
+    before, after = np.roll(values, 1), np.roll(values, -1)
+    bend = 2 * values - before - after
+    return np.flatnonzero((bend > 0) & (values >= before) & (values >= after) & (values + bend >= values.max()))
 
 
 def bracketed_roots(

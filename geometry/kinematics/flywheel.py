@@ -62,17 +62,6 @@ def mertsalov(cycle: Cycle, speed: float, unevenness: float) -> Flywheel:
     return Flywheel(float(np.ptp(rest)) / (speed**2 * unevenness), driving, gained, of_links, rest)
 
 
-def travelled(place: Real, velocity: Real, acceleration: Real, *, forward: bool) -> Real:
-    """How far a slider has gone one way since the start, at samples that follow each other closely.
-
-    Within a step in which it turns round it goes v^2 / (2 |a|) to its dead point, or from there.
-    """
-    sense = 1 if forward else -1
-    step, v, a = sense * np.diff(place), sense * velocity, np.abs(acceleration)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        rest = v**2 / (2 * a)
-    before, after = v[:-1], v[1:]
-    gone = np.where((before > 0) & (after > 0), step, 0.0)
-    gone = np.where((before > 0) & (after <= 0), rest[:-1], gone)
-    gone = np.where((before <= 0) & (after > 0), rest[1:], gone)
-    return np.concatenate([[0.0], np.cumsum(gone)])
+def travelled(place: Real, *, forward: bool) -> Real:
+    """How far a slider has gone one way since the start, at places between which it does not turn round."""
+    return np.concatenate([[0.0], np.cumsum(np.maximum(np.diff(place if forward else -place), 0.0))])

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record
+from geometry.base.roots import crests, tops
 from geometry.curves.curve import Real
+from geometry.kinematics.flywheel import travelled
 from geometry.kinematics.kinetostatics import (
     Acting,
     Body,
@@ -45,6 +47,8 @@ _OF_LINKS = ("masses", "inertias", "centres", "centre_offsets")
 _DEAD = 1e-3
 # parts of the crank's speed at which an output stands, its resistance being about to turn round
 _STANDS = 1e-9
+# what counts for a force or a moment of a position that holds none, below all numbers that are
+_NOT_HELD = -1e300
 
 
 class Loaded(Record, eq=False):
@@ -70,6 +74,23 @@ class LeverForce(Record):
     force: complex
     couple: float = 0.0
     turning: float = 0.0
+
+
+class Turn(Record, eq=False):
+    """A whole turn of the crank: equidistant ``angles``, and the ``dead`` points where the output turns back, rad."""
+
+    angles: Real
+    dead: Real
+
+    @property
+    def step(self) -> float:
+        """Between neighbouring angles, rad."""
+        return 2 * math.pi / len(self.angles)
+
+    @property
+    def marks(self) -> Real:
+        """All of them, from the first position to the first one again."""
+        return np.sort(np.concatenate([self.angles, self.dead, self.angles[:1] + 2 * math.pi]))
 
 
 class Forces:
@@ -101,8 +122,8 @@ class Forces:
         """All masses: of links, and at points."""
         return [body for _, body in self.named]
 
-    def at(self, at: Moved) -> Loaded:
-        """The loads in the positions of ``at``."""
+    def at(self, at: Moved, going: Real | None = None) -> Loaded:
+        """The loads in the positions of ``at``; ``going``: the sense of the output, unless it is that there."""
         moving = frames(self.levers, at)
         gravity = cmath.rect(self.keys.gravity, math.radians(self.keys.gravity_angle_deg))
         acting: dict[str, Acting] = {}
@@ -110,7 +131,7 @@ class Forces:
             if gravity and body.mass:
                 acting[f"G_{name}"] = weight(body, gravity, moving[body.link])
             acting[f"F_i{name}"] = inertial(body, moving[body.link])
-        opposed = self._opposed(moving)
+        opposed = self._opposed(self.going(moving) if going is None else going)
         if self.keys.resistance is not None:
             force = self.keys.resistance * opposed * moving[self.output].way[0]
             acting["F_c"] = Acting(self.output, 0j, force, np.zeros(np.shape(force)))
@@ -129,9 +150,29 @@ class Forces:
         fast = self.levers.speed * (self.levers.crank if self.slides else 1.0)
         return np.asarray(np.abs(self.way(moving)) <= _STANDS * fast)
 
-    def _opposed(self, moving: dict[str, Frame]) -> Real:
+    def going(self, moving: dict[str, Frame]) -> Real:
+        """The sense in which the output goes: 1 forward, -1 backward, 0 where it stands."""
+        return np.where(self.stands(moving), 0.0, np.sign(self.way(moving)))
+
+    def work(self, at: Moved) -> Real:
+        """What is done against the resistance since the first position, J; between them no output turns round."""
+        frame, force = frames(self.levers, at)[self.output], self.keys.resistance
+        place = np.real(np.conj(frame.way[0]) * frame.origin[0]) / 1000
+        if not self.slides:
+            place, force = np.unwrap(np.angle(frame.way[0])), self.keys.resisting_moment
+        ways = {"forward": (True,), "backward": (False,), "both": (True, False)}[self.keys.resisted]
+        gone = sum((travelled(place, forward=forward) for forward in ways), np.zeros(len(place)))
+        return (force or 0.0) * gone
+
+    def against(self, loaded: Loaded) -> Real:
+        """What the resistance asks of the crank, N m."""
+        acting = loaded.acting.get("F_c" if self.slides else f"M_c{self.output}")
+        if acting is None:
+            return np.zeros(len(loaded.found.moment))
+        return -power(acting, loaded.moving[self.output]) / self.levers.speed
+
+    def _opposed(self, sense: Real) -> Real:
         """The sense of the resistance: -1, 1, or 0 where it does not act."""
-        sense = np.where(self.stands(moving), 0.0, np.sign(self.way(moving)))
         idle = {"forward": sense < 0, "backward": sense > 0, "both": np.zeros(np.shape(sense), bool)}
         return np.where(idle[self.keys.resisted], 0.0, -sense)
 
@@ -190,12 +231,12 @@ def weighs(keys: LeverKeys) -> bool:
 class ForcePage:
     """The sections and tables of the force analysis; ``plans``: those of forces, for the picture.
 
-    ``angles``: the crank's positions of the table; ``turn``: fine ones over a turn, None where it does not turn round.
+    ``angles``: the crank's positions of the table; ``turn``: None where it does not turn round.
     """
 
-    def __init__(self, page: Sheet, forces: Forces, at: Moved, angles: Real, turn: Moved | None) -> None:
+    def __init__(self, page: Sheet, forces: Forces, at: Moved, angles: Real, turn: Turn | None) -> None:
         self.page, self.forces, self.keys, self.levers = page, forces, forces.keys, forces.levers
-        self.turn = None if turn is None else forces.at(turn)
+        self.turn = turn
         self.rows = forces.at(self.levers.moved(angles))
         self.one = forces.at(at)
         self.degrees = np.degrees(angles)
@@ -422,20 +463,45 @@ class ForcePage:
         heads += [(f"R_{pair}", "N") for pair in pairs]
         columns += [np.abs(rows.found.forces[pair]) for pair in pairs]
         page.table("forces", N_("Balancing moment and reactions in the joints"), heads, np.array(columns)[:, held].T)
-        if turn is None or not turn.held.any():
+        if turn is None:
             return
-        fine = (self.degrees[0] + 360 * np.arange(len(turn.held)) / len(turn.held)) % 360
-        greatest = []
-        for pair in pairs:
-            values = np.abs(turn.found.forces[pair])
-            most = int(np.argmax(np.where(turn.held, values, -1.0)))
-            greatest.append((f"R_{pair}", values[most], fine[most]))
+        fine = self.forces.at(self.levers.moved(turn.angles))
+        if not fine.held.any():
+            return
+        most = [self._most(fine, turn, pair) for pair in pairs]
+        greatest = [(f"R_{pair}", value, math.degrees(at) % 360) for pair, (value, at) in zip(pairs, most, strict=True)]
         heads = [(N_("force"), ""), (N_("value"), "N"), ("φ_1", "deg")]
         page.table("greatest_forces", N_("Greatest reactions in the joints over the turn"), heads, greatest)
-        moments = turn.found.moment[turn.held] / 1000
+        moments = [sign * self._most(fine, turn, None, sign)[0] / 1000 for sign in (1, -1)]
         page.section("Forces over a turn")
-        page.told(greatest_balancing_moment=float(moments.max()), least_balancing_moment=float(moments.min()))
-        page.add("mean_balancing_moment", float(moments.mean()))
+        page.told(greatest_balancing_moment=moments[0], least_balancing_moment=moments[1])
+        # what the resistance asks has corners at the dead points; its work has not
+        smooth = (fine.found.moment / 1000 - self.forces.against(fine))[fine.held]
+        work = self.forces.work(self.levers.moved(turn.marks))[-1]
+        page.add("mean_balancing_moment", float(smooth.mean() + work / (2 * math.pi)))
+
+    def _most(self, fine: Loaded, turn: Turn, pair: str | None, sign: int = 1) -> tuple[float, float]:
+        """The greatest reaction in a joint, N, or balancing moment, N mm, over the turn, and the crank's angle, rad.
+
+        At a dead point the resistance turns round, and a reaction jumps: there both ends of the jump count.
+        """
+
+        def values(loaded: Loaded) -> Real:
+            found = sign * loaded.found.moment if pair is None else np.abs(loaded.found.forces[pair])
+            return np.where(loaded.held, found, _NOT_HELD)
+
+        def at(angles: Real, going: Real) -> Real:
+            return values(self.forces.at(self.levers.moved(angles), going))
+
+        found = values(fine)
+        near = tops(found)
+        going = self.forces.going(fine.moving)[near]
+        beside = crests(lambda angles: at(angles, going), turn.angles[near], turn.step)
+        seen = [(turn.angles, found), (beside, values(self.forces.at(self.levers.moved(beside))))]
+        seen += [(turn.dead, at(turn.dead, np.full(len(turn.dead), way))) for way in (1.0, -1.0)]
+        places, sizes = (np.concatenate(of) for of in zip(*seen, strict=True))
+        most = int(np.argmax(sizes))
+        return float(sizes[most]), float(places[most])
 
     def _notes(self) -> None:
         page = self.page

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,17 +13,17 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearer
-from geometry.base.roots import bracketed_roots
+from geometry.base.roots import bracketed_roots, crests, tops
 from geometry.curves.curve import Complex, Real
-from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
-from geometry.kinematics.kinetostatics import frames, reduced_inertia, weights_work
+from geometry.kinematics.flywheel import Cycle, mertsalov
+from geometry.kinematics.kinetostatics import by_zhukovsky, frames, reduced_inertia, weights_work
 from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, closed, ranges, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.keys.base import either
 from parts.keys.title import TitleBlockTable
 from parts.mates.pages.contour_marks import checked_picture
-from parts.mates.pages.lever_forces import ForcePage, Forces, LeverForce, asked, weighs
+from parts.mates.pages.lever_forces import ForcePage, Forces, LeverForce, Turn, asked, weighs
 from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of, room_of
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
 from parts.mates.pages.lever_tasks import EXAMPLE, MACHINES, assigned, rows_of_code
@@ -164,6 +164,7 @@ class _Page:
             self.angles = np.array([self.start])
             self.turn = self.levers.moved((low + high) / 2 - (1 - _LEFT) * (high - low) / 2 * np.cos(turn))
         self.at = self.levers.moved(self.start)
+        self.over = Turn(self.start + turn, self._dead_points()[0] if self.between is None else np.array([]))
         self.drawn = keys.drawn_crank or (_DRAWN_CRANK if keys.sheet is None else self._round_crank())
 
     def _driven(self) -> tuple[tuple[float, float] | None, ParameterError | None]:
@@ -448,10 +449,12 @@ class _Page:
             page.section("Over a turn")
             if self._slides:
                 # positions stand beside the dead points
-                travel = np.append(travel, self._along(self.levers.moved(self._dead_points()[0]).place(name)))
+                travel = np.append(travel, self._along(self.levers.moved(self.over.dead).place(name)))
                 page.add("output_stroke", float(np.ptp(travel)), of=of)
-            page.add("greatest_output_velocity", float(np.abs(self.turn.velocity(name)).max()) / 1000, of=of)
-            page.add("greatest_output_acceleration", float(np.abs(self.turn.acceleration(name)).max()) / 1000, of=of)
+            most = self._most(lambda at: np.abs(at.velocity(name)))
+            page.add("greatest_output_velocity", most / 1000, of=of)
+            most = self._most(lambda at: np.abs(at.acceleration(name)))
+            page.add("greatest_output_acceleration", most / 1000, of=of)
             self._ways()
         at = self.levers.moved(self.angles)
         heads, columns = [("φ_1", "deg")], [np.degrees(self.angles)]
@@ -469,6 +472,16 @@ class _Page:
         size = self._along if self._slides else np.abs
         columns += [size(speeds / 1000), size(changes / 1000)]
         page.table("positions", title, heads, zip(*columns, strict=True))
+
+    def _most(self, of: Callable[[Moved], Real]) -> float:
+        """The greatest over the turn of what the mechanism has in each position."""
+
+        def at(angles: Real) -> Real:
+            return of(self.levers.moved(angles))
+
+        values = of(self.turn)
+        found = crests(at, self.over.angles[tops(values)], self.over.step)
+        return float(np.append(values, at(found)).max())
 
     def _along(self, vectors: Complex) -> Real:
         """What of vectors lies along the guide."""
@@ -512,7 +525,7 @@ class _Page:
         """The force analysis, where loads are given: its plans."""
         if self.forces is None:
             return []
-        part = ForcePage(self.page, self.forces, self.at, self.angles, self.turn if self.between is None else None)
+        part = ForcePage(self.page, self.forces, self.at, self.angles, self.over if self.between is None else None)
         part.add()
         self.lever = tuple(part.lever())
         return part.plans
@@ -522,61 +535,69 @@ class _Page:
         keys, page = self.keys, self.page
         if keys.unevenness is None:
             return None
-        resistance, resists = keys.resistance, "resistance"
-        if not self._slides:
-            resistance, resists = keys.resisting_moment, "resisting_moment"
-        if resistance is None or self.forces is None:
+        resists, forces, over = "resistance" if self._slides else "resisting_moment", self.forces, self.over
+        if getattr(keys, resists) is None or forces is None:
             raise ParameterError("unevenness", keys.unevenness, "needs_other", REMOVED, other=resists)
         if keys.acceleration:
             raise ParameterError("acceleration", keys.acceleration, "other_is_given", REMOVED, other="unevenness")
-        place, ahead, change = self._travelled()
-        ways = {"forward": (True,), "backward": (False,), "both": (True, False)}[keys.resisted]
-        gone = sum((travelled(place, ahead, change, forward=forward) for forward in ways), np.zeros(len(place)))
-        against = sum((np.maximum(ahead if forward else -ahead, 0.0) for forward in ways), np.zeros(len(place)))
-        resisting = resistance * against / keys.speed
-        bodies = self.forces.bodies
-        moving = frames(self.levers, self.turn)
-        inertia = reduced_inertia(bodies, moving, keys.speed)
-        inertia = np.append(inertia, inertia[0])
-        angle = self.start + 2 * math.pi * np.arange(self.fine + 1) / self.fine
+        weights = bool(weighs(keys) and keys.gravity)
+        marks = np.sort(np.concatenate([over.marks, *(self._balanced(weighed) for weighed in {False, weights})]))
+        at, bodies = self.levers.moved(marks), forces.bodies
+        work, moving = forces.work(at), frames(self.levers, at)
+
+        def inertia(at: Moved) -> Real:
+            return reduced_inertia(bodies, frames(self.levers, at), keys.speed)
+
         try:
-            wheel = mertsalov(Cycle(angle, resistance * gone, inertia), keys.speed, keys.unevenness)
+            wheel = mertsalov(Cycle(marks, work, inertia(at)), keys.speed, keys.unevenness)
         except ParameterError as error:
             raise error.renamed(resists) from error
         page.section("Flywheel, by Mertsalov")
         page.add("unevenness", keys.unevenness, given=True)
-        page.add("resisting_work", float(resistance * gone[-1]))
+        page.add("resisting_work", float(work[-1]))
         page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
         if bodies:
-            page.told(least_reduced_inertia=float(inertia.min()), greatest_reduced_inertia=float(inertia.max()))
+            page.told(least_reduced_inertia=-self._most(lambda at: -inertia(at)))
+            page.told(greatest_reduced_inertia=self._most(inertia))
         page.add("flywheel_energy", wheel.swing)
         page.add("flywheel_inertia", wheel.moment, "{dT} / ({omega_1}**2 * {delta})", _MERTSALOV)
-        if weighs(keys) and keys.gravity:
+        if weights:
             page.note("weights, which do no work over a turn, are left out of the flywheel's diagrams")
             fallen = weights_work(bodies, cmath.rect(keys.gravity, math.radians(keys.gravity_angle_deg)), moving)
-            swing_of_all = float(np.ptp(wheel.of_flywheel[:-1] + fallen))
+            swing_of_all = float(np.ptp(wheel.of_flywheel + fallen))
             page.add("weighed_flywheel_energy", swing_of_all)
             page.add("weighed_flywheel_inertia", swing_of_all / (keys.speed**2 * keys.unevenness),
                      "{dT_G} / ({omega_1}**2 * {delta})")  # fmt: skip
-        turned = wheel.driving * (angle - angle[0])
-        columns = (np.degrees(angle), resisting, inertia, resistance * gone, turned,
-                   wheel.gained, wheel.of_links, wheel.of_flywheel)  # fmt: skip
+        angle = np.append(over.angles, over.angles[0] + 2 * math.pi)
+        shown = np.searchsorted(marks, angle)
+        loaded = forces.at(self.levers.moved(angle))
+        resisting, gained, of_links, of_flywheel = (
+            forces.against(loaded), *(x[shown] for x in (wheel.gained, wheel.of_links, wheel.of_flywheel))
+        )  # fmt: skip
+        columns = (np.degrees(angle), resisting, inertia(at)[shown], work[shown], wheel.driving * (angle - angle[0]),
+                   gained, of_links, of_flywheel)  # fmt: skip
         heads = (("φ_1", "deg"), ("M_c", "N*m"), ("J", "kg*m2"), ("A_c", "J"), ("A_d", "J"), ("ΔT", "J"), ("ΔT_l", "J"),
                  ("ΔT_m", "J"))  # fmt: skip
         rows = zip(*(values[:: self.fine // keys.positions] for values in columns), strict=True)
         page.table("cycle", N_("Moments, works and energies over the turn"), heads, rows)
-        return Run(np.degrees(angle), resisting, wheel.driving, wheel.gained, wheel.of_links, wheel.of_flywheel)
+        return Run(np.degrees(angle), resisting, wheel.driving, gained, of_links, of_flywheel)
 
-    def _travelled(self) -> tuple[Real, Real, Real]:
-        """Place, velocity, acceleration of the output over a whole turn: along its way, m, or about its pivot, rad."""
-        turn, name, link = self.turn, self._output, "3" if self.levers.second is None else "5"
-        if self._slides:
-            series = (turn.place(name), turn.velocity(name), turn.acceleration(name))
-            found = tuple(self._along(x) / 1000 for x in series)
-        else:
-            found = (turn.angle(link), *turn.turning(link))
-        place, ahead, change = (np.append(x, x[0]) for x in found)
-        return place if self._slides else np.unwrap(place), ahead, change
+    def _balanced(self, weighed: bool) -> Real:
+        """Angles of the crank at which what it is asked for is what drives it, rad: extremes of a flywheel's energy."""
+        forces, over = self.forces, self.over
+        assert forces is not None
+        mean = forces.work(self.levers.moved(over.marks))[-1] / (2 * math.pi)
+
+        def lacking(angles: Real) -> Real:
+            loaded = forces.at(self.levers.moved(angles))
+            acting = [one for name, one in loaded.acting.items() if weighed or not name.startswith("G_")]
+            return by_zhukovsky(acting, loaded.moving, self.keys.speed) / 1000 - mean
+
+        values = lacking(over.angles)
+        after = np.roll(values, -1)
+        (turns,) = np.nonzero((values > 0) != (after > 0))
+        before = over.angles[turns]
+        return bracketed_roots(lacking, before, before + over.step, values[turns], after[turns])
 
     def _plans_at(self, at: Moved) -> tuple[Plan, Plan]:
         """Plans of velocities and of accelerations in a position."""
@@ -707,11 +728,13 @@ class _Page:
         """Travel, velocity and acceleration of the output over the turn, along its guide or about its pivot."""
         if self.between is not None:
             return ()
-        place, *rates = (values[:-1] for values in self._travelled())
-        travel = place - place.min()
+        turn, name = self.turn, self._output
         if self._slides:
-            return ("S", "mm", 1000 * travel), ("V", "m/s", rates[0]), ("a", "m/s2", rates[1])
-        return ("ψ", "deg", np.degrees(travel)), ("ω", "rad/s", rates[0]), ("ε", "rad/s2", rates[1])
+            place, *rates = (self._along(x) for x in (turn.place(name), turn.velocity(name), turn.acceleration(name)))
+            return ("S", "mm", place - place.min()), ("V", "m/s", rates[0] / 1000), ("a", "m/s2", rates[1] / 1000)
+        link = "3" if self.levers.second is None else "5"
+        place, rates = np.unwrap(turn.angle(link)), list(turn.turning(link))
+        return ("ψ", "deg", np.degrees(place - place.min())), ("ω", "rad/s", rates[0]), ("ε", "rad/s2", rates[1])
 
     def _velocity_vectors(self, at: Moved) -> list[Vector]:
         ends = {name: complex(at.velocity(name)) / 1000 for name in at.points}

@@ -77,7 +77,7 @@ def test_the_mean_balancing_moment_is_the_flywheels_driving_moment(assignment: i
     """Over a turn weights and inertia do no work: what is left is the resistance, whose work Mertsalov adds up."""
     data = calculated(f"assignment={assignment}", *keys_of(assignment), "unevenness=0.05")
     span = value(data, "M_b,max") - value(data, "M_b,min")
-    assert value(data, "M_b,m") == pytest.approx(value(data, "M_d"), abs=2e-3 * span)
+    assert value(data, "M_b,m") == pytest.approx(value(data, "M_d"), abs=1e-12 * span)
 
 
 @pytest.mark.parametrize("angle", [40, 130, 260, 345])
@@ -247,6 +247,52 @@ def test_the_flywheel_with_the_work_of_the_weights() -> None:
     # across the guide the weight of a piston does nothing
     level = calculated(*SLOW)
     assert value(level, "J_m,G") == pytest.approx(value(level, "J_m"), rel=1e-12)
+
+
+def test_the_greatest_of_a_turn_is_not_that_of_the_positions_told() -> None:
+    """A heavy piston beside the shaft, resisted both ways: by its closed form at two million places, jumps and all.
+
+    Of 3600 positions alone a reaction at its jump was 2e-6 of it less, the flywheel's energy and the moment 1e-6.
+    """
+    crank, rod, beside, speed, mass, force = 0.07, 0.1, 0.012, 50.0, 4.0, 300.0
+    data = calculated("first=slider", "crank_length=70", "coupler_length=100", "guide_height=12", "speed=50",
+                      "start_angle_deg=40", "masses.3=4", "gravity=0", "resistance=300", "unevenness=0.05")  # fmt: skip
+    angle = math.radians(40) + np.linspace(0, 2 * math.pi, 2_000_001)
+    lean = (beside - crank * np.sin(angle)) / rod
+    leaning = -crank * np.cos(angle) / rod
+    cosine = np.sqrt(1 - lean**2)
+    place = crank * np.cos(angle) + rod * cosine
+    rate = -crank * np.sin(angle) - rod * lean * leaning / cosine
+    bend = (-crank * np.cos(angle) - rod * (leaning**2 + lean * (beside / rod - lean)) / cosine
+            - rod * (lean * leaning) ** 2 / cosine**3)  # fmt: skip
+    velocity, acceleration = speed * rate, speed**2 * bend
+    load = mass * acceleration + force * np.sign(rate)
+    resisted = force * np.append(0.0, np.cumsum(np.abs(np.diff(place))))
+    moment = load * rate
+    told = data["values"]
+    assert told["greatest_output_velocity"] == pytest.approx(np.abs(velocity).max(), rel=1e-10)
+    assert told["greatest_output_acceleration"] == pytest.approx(np.abs(acceleration).max(), rel=1e-10)
+    greatest = {row["force"]: row["value"] for row in data["greatest_forces"]}
+    # beside a jump the nearest place is up to 3e-6 rad off
+    assert greatest["R_12"] == pytest.approx(np.abs(load / cosine).max(), rel=1e-7)
+    assert greatest["R_03"] == pytest.approx(np.abs(load * lean / cosine).max(), rel=1e-7)
+    assert told["greatest_balancing_moment"] == pytest.approx(moment.max(), rel=1e-9)
+    assert told["least_balancing_moment"] == pytest.approx(moment.min(), rel=1e-9)
+    assert told["mean_balancing_moment"] == pytest.approx(resisted[-1] / (2 * math.pi), rel=1e-10)
+    assert told["greatest_reduced_inertia"] == pytest.approx(mass * (rate**2).max(), rel=1e-10)
+    rest = resisted[-1] * (angle - angle[0]) / (2 * math.pi) - resisted - mass * velocity**2 / 2
+    assert told["flywheel_energy"] == pytest.approx(np.ptp(rest), rel=1e-10)
+
+
+def test_a_drive_that_turns_round_lifts_least_there() -> None:
+    """Where the balancing moment passes through 0 a wheel's push changes its flank: the shaft's force has a corner.
+
+    A mass at A asks no moment but by its weight, none where it hangs below the shaft and is heaviest.
+    """
+    data = calculated("first=slider", "crank_length=70", "coupler_length=210", "speed=20", "start_angle_deg=40.03",
+                      "point_masses.A=3", "drive_radius=200", "drive_pressure_angle_deg=30")  # fmt: skip
+    greatest = {row["force"]: row["value"] for row in data["greatest_forces"]}
+    assert greatest["R_01"] == pytest.approx(3 * (9.81 + 0.07 * 400), rel=1e-9)
 
 
 @pytest.mark.parametrize("factor", [1e-9, 1.0, 1e6])
