@@ -151,6 +151,20 @@ def in_keys(refusal: ParameterError) -> ParameterError:
     return refusal if name == refusal.name else refusal.renamed(name, factor)
 
 
+def in_normal_terms(refusal: ParameterError, own: ToothedKeys, other: ToothedKeys) -> ParameterError:
+    """A refusal of transverse sections with the normal value that the blamed one's ``own`` keys give."""
+    cosine, key = math.cos(helix_of(own).angle), refusal.name
+    if cosine == 1 or key not in ("profile_shift_coefficient", "pressure_angle_deg"):
+        return refusal
+
+    def cure() -> Nearest | None:
+        if key == "pressure_angle_deg":
+            return Nearest(getattr(other, key))
+        return refusal.nearest and refusal.nearest.scaled(1 / cosine)
+
+    return refusal.told_of(key, getattr(own, key), cure)
+
+
 def told_in_keys(made: Callable[P, T]) -> Callable[P, T]:
     """Of what makes teeth from keys: its refusals are told ``in_keys``."""
 

@@ -21,7 +21,8 @@ K = TypeVar("K", bound=Struct)
 AxialModule = Annotated[float, mm("axial module of the worm", above=0, most=1000, example=2.0)]
 Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
 TipRounding = Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)]
-Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
+_MOST_QUOTIENT = 1000
+Quotient = Annotated[float, Meta(gt=0, le=_MOST_QUOTIENT, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0
 # values that are tried of keys that may take thread or teeth away: of addenda lower ones leave a rounding no room,
@@ -33,10 +34,11 @@ _LESS = (0.9, 0.75, 0.5, 0.25, 0.1, 0.0)
 # how near to the last one that holds a value of a wheel is found, modules or part of it
 NEAR = 8e-4
 WormQuotient = Annotated[
-    float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
+    float, Meta(gt=0, le=_MOST_QUOTIENT, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
 ]  # fmt: skip
+_MOST_LEAD = 89
 LeadAngle = Annotated[
-    float, degrees("lead angle on the reference cylinder, in place of q", above=0, below=89, example=5.7)
+    float, degrees("lead angle on the reference cylinder, in place of q", above=0, below=_MOST_LEAD, example=5.7)
 ]
 Form = Annotated[Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"], Meta(description="form of the flanks, GOST 18498")]
 WormAngle = Annotated[
@@ -101,12 +103,15 @@ def quotient_of(keys: Led) -> float:
     Raises
     ------
     ParameterError
-        They give both, and these do not agree.
+        They give both, and these do not agree, or an angle whose quotient is more than any may be.
     """
-    given = keys.diameter_quotient
-    if keys.lead_angle_deg is None:
+    given, angle = keys.diameter_quotient, keys.lead_angle_deg
+    if angle is None:
         return given or USUAL_QUOTIENT
-    wanted = keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg))
+    least = math.degrees(math.atan(keys.number_of_starts / _MOST_QUOTIENT))
+    if angle < least * (1 - 1e-9):
+        raise ParameterError.beyond("lead_angle_deg", angle, "out_of_range", least, least=least, most=_MOST_LEAD)
+    wanted = keys.number_of_starts / math.tan(math.radians(angle))
     if given is not None and not math.isclose(given, wanted, rel_tol=1e-9):
         raise either("diameter_quotient", given, "lead_angle_deg")
     return wanted

@@ -402,19 +402,10 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
 
     def _in_normal_terms(self, refusal: ParameterError, first: End[Any], second: End[Any]) -> ParameterError:
         """A refusal of transverse sections with the normal value that the blamed part's keys give."""
-        from parts.keys.helix import helix_of
+        from parts.keys.helix import in_normal_terms
 
         one, other, owner = (first, second, "first.") if first.kind == "ring_gear" else (second, first, "")
-        cosine, key = math.cos(helix_of(one.keys).angle), refusal.name
-        if cosine == 1 or key not in ("profile_shift_coefficient", "pressure_angle_deg"):
-            return refusal.renamed(owner + key)
-
-        def cure() -> Nearest | None:
-            if key == "pressure_angle_deg":
-                return Nearest(getattr(other.keys, key))
-            return refusal.nearest and refusal.nearest.scaled(1 / cosine)
-
-        return refusal.told_of(owner + key, getattr(one.keys, key), cure)
+        return in_normal_terms(refusal, one.keys, other.keys).renamed(owner + refusal.name)
 
 
 class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear", ExternalMating]):

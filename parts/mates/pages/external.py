@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import partial
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import nearer
+from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.external import ExternalPair, external_pair, tip_beside
 from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential
@@ -37,7 +38,7 @@ from parts.gears.spur_gear.page import (
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
-from parts.keys.helix import common_face, helix_of, in_keys, same_helix
+from parts.keys.helix import common_face, helix_of, in_keys, in_normal_terms, same_helix
 from parts.mates.pages.crossed import CrossedKeys, crossed_sheet
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
 from parts.mates.pages.pair_keys import GEARS, kind_of_pair, merged, pair_table
@@ -150,7 +151,8 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
         return page
     except ParameterError as error:
         owner = "" if error.name.partition(".")[0] in keys_of(PairKeys) else "second"
-        raise wish_refused(TOPIC, keys, refusal(TOPIC, in_keys(error), owner, keys), made) from error
+        told = in_normal_terms(in_keys(error), keys.second, keys.first)
+        raise wish_refused(TOPIC, keys, refusal(TOPIC, told, owner, keys), made) from error
     except SceneError as error:
         raise wish_refused(TOPIC, keys, error, made) from error
 
@@ -216,10 +218,17 @@ def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *
             with suppress(ParameterError):
                 tip = tip_beside(one, two, keys.working_centre_distance)
                 return checked_gear(replace(normal[index], given_tip_diameter=tip), helix)
-            if error.name in ("profile_shift_coefficient", "circumferential_thinning"):
-                path = f"{name}.{error.name}"
-                told = nearer(error, lambda value: _is_pair(replaced(keys, path, value)))
+        if beside and error.name in ("profile_shift_coefficient", "circumferential_thinning"):
+            told = error.told_of(error.name, error.value, partial(_of_pair, keys, f"{name}.{error.name}", error))
         raise refusal(TOPIC, told, name, keys) from error
+
+
+def _of_pair(keys: PairKeys, path: str, alone: ParameterError) -> Nearest | None:
+    """The value of a gear's key nearest to a refused one with which there is a pair; what is refused of it alone."""
+    own, given = alone.nearest, alone.value
+    ends = [own.value] if own is not None and isinstance(own.value, float) else []
+    assert isinstance(given, float)
+    return nearest(lambda value: _is_pair(replaced(keys, path, value)), given, [*ends, 0.0])
 
 
 def _is_pair(keys: PairKeys) -> bool:

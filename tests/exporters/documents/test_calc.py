@@ -597,6 +597,8 @@ def refused(topic: str, *arguments: str) -> SceneError:
             None,
         ),
         (("gear-pair", "practicum_pair", "mate=2"), "mate", "no_such_pair", 1),
+        # q is at most 1000; before: no whole outline, in English whatever the language
+        (("worm", "module=2", "lead_angle_deg=0.01"), "worm.lead_angle_deg", "out_of_range", 0.0573),
         (("shift-choice", "first.number_of_teeth=13"), "shift-choice.second", "missing_key", None),
         (
             ("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "face_width=9"),
@@ -634,11 +636,14 @@ def test_wrong_input_gets_one_clear_line(
         ("first.profile_shift_coefficient", 2.776, "flanks_meet_below_form"),
         ("first.circumferential_thinning", 1000.0, "fillets_meet"),
         ("second.circumferential_thinning", 1000.0, "flanks_meet_below_form"),
+        # before: nothing was offered, as what the tooth may have alone, -1.2161, has no distance to its mate
+        ("first.profile_shift_coefficient", -10.0, "leaves_no_flank"),
+        ("second.profile_shift_coefficient", -3.0, "fillets_meet"),
     ],
 )
 def test_the_limit_of_a_tooth_is_that_with_the_tip_which_its_mate_leaves_it(key: str, value: float, code: str) -> None:
-    """Before: that of the tooth alone, of 6.94 a shift of 0.8766, where beside the mate 1.8842 is made."""
-    pair = "gear-pair module=10 first.number_of_teeth=13 second.number_of_teeth=21 second.profile_shift_coefficient=0.4"
+    """Before: that of the tooth alone, of 6.94 a shift of 0.8766, where beside the mate 1.3097 is made."""
+    pair = "gear-pair module=10 first.number_of_teeth=13 second.number_of_teeth=21"
     told = refused(*pair.split(), f"{key}={value}")
     assert (told.key, told.code) == (f"gear-pair.{key}", code)
     assert told.nearest is not None
@@ -646,8 +651,23 @@ def test_the_limit_of_a_tooth_is_that_with_the_tip_which_its_mate_leaves_it(key:
     assert isinstance(most, float)
     values_of(f"{pair} {key}={most}")
     # a thousandth of the module farther in mm, of a coefficient in modules
-    step = 1e-3 if key.endswith("coefficient") else 1e-2
-    assert refused(*pair.split(), f"{key}={most + step}").key == f"gear-pair.{key}"
+    step = math.copysign(1e-3 if key.endswith("coefficient") else 1e-2, value)
+    refused(*pair.split(), f"{key}={most + step}")
+
+
+def test_a_helical_pair_is_refused_in_the_normal_terms_that_were_typed() -> None:
+    """Before: shifts and angles of the transverse section, -1.22160040702 for -1.3, and at least -0.780958 of those."""
+    pair = "gear-pair module=10 helix_angle_deg=20 first.number_of_teeth=13 second.number_of_teeth=21"
+    told = refused(*pair.split(), "second.profile_shift_coefficient=-1.3")
+    assert (told.key, told.value) == ("gear-pair.second.profile_shift_coefficient", -1.3)
+    # inv(alpha_wt) = 0 where x cos(beta) = -(z1 + z2) inv(alpha_t) / (2 tan(alpha_t))
+    angle = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(20)))
+    least = -17 * (math.tan(angle) - angle) / math.tan(angle) / math.cos(math.radians(20))
+    assert told.nearest is not None
+    assert isinstance(told.nearest.value, float)
+    assert least <= told.nearest.value < least + 2e-4
+    other = refused(*pair.split(), "first.pressure_angle_deg=25")
+    assert (other.key, other.value, other.nearest) == ("gear-pair.second.pressure_angle_deg", 20.0, Nearest(25.0))
 
 
 def test_what_is_offered_for_an_element_of_a_list_has_been_tried() -> None:
