@@ -50,16 +50,14 @@ def nearest(
         return kept(holds, value)
 
     ends = [toward] if isinstance(toward, int | float) else toward
-    good: float | None = None
-    failed = [given]
-    for end in ends:
+    failed, good = [given], given
+    for good in ends:
         if left <= 0:
             return None
-        if tried(end):
-            good = end
+        if tried(good):
             break
-        failed.append(end)
-    if good is None:
+        failed.append(good)
+    else:
         return None
     # what lies before the last that failed on the way is not looked at again; other ends may lie beyond it
     on_way = [one for one in failed if (one - good) * (given - good) > 0]

@@ -151,7 +151,7 @@ def in_keys(refusal: ParameterError) -> ParameterError:
     return refusal if name == refusal.name else refusal.renamed(name, factor)
 
 
-def in_normal_terms(refusal: ParameterError, own: ToothedKeys, other: ToothedKeys) -> ParameterError:
+def in_normal_terms(refusal: ParameterError, own: Struct, other: Struct) -> ParameterError:
     """A refusal of transverse sections with the normal value that the blamed one's ``own`` keys give."""
     cosine, key = math.cos(helix_of(own).angle), refusal.name
     if cosine == 1 or key not in ("profile_shift_coefficient", "pressure_angle_deg"):
