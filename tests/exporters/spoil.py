@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -368,3 +369,18 @@ STL_CHANGES = [
     not_a_number,
     normal_turned,
 ]
+
+
+def in_model(change: Callable[[str], str]) -> Callable[[Path], None]:
+    """A spoiler of the XML in a 3MF."""
+
+    def spoil(file: Path) -> None:
+        with zipfile.ZipFile(file) as package:
+            content = {n: package.read(n) for n in package.namelist()}
+        changed = change(content["3D/3dmodel.model"].decode()).encode()
+        assert changed != content["3D/3dmodel.model"]
+        with zipfile.ZipFile(file, "w") as package:
+            for name, data in (content | {"3D/3dmodel.model": changed}).items():
+                package.writestr(name, data)
+
+    return spoil

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,22 +19,8 @@ from parts.scene.load import make_parts, scene_from_toml
 from parts.scene.placing import place
 from parts.scene.standing import Instance
 from tests.exporters.making import read_report, run
+from tests.exporters.spoil import in_model
 from tests.exporters.train import TRAIN
-
-
-def in_model(change: Callable[[str], str]) -> Callable[[Path], None]:
-    """A spoiler of the XML in a 3MF."""
-
-    def spoil(file: Path) -> None:
-        with zipfile.ZipFile(file) as package:
-            content = {n: package.read(n) for n in package.namelist()}
-        changed = change(content["3D/3dmodel.model"].decode()).encode()
-        assert changed != content["3D/3dmodel.model"]
-        with zipfile.ZipFile(file, "w") as package:
-            for name, data in (content | {"3D/3dmodel.model": changed}).items():
-                package.writestr(name, data)
-
-    return spoil
 
 
 def in_text(change: Callable[[str], str]) -> Callable[[Path], None]:

@@ -19,7 +19,7 @@ import pytest
 from exporters.formats.chains import chained, nodes, smooth_loops
 from exporters.formats.drawing_dxf import add_curve, write_drawing_dxf
 from exporters.formats.laser_dxf import write_laser_dxf
-from exporters.formats.read_3mf import read_3mf_assembly
+from exporters.formats.read_3mf import read_3mf, read_3mf_assembly
 from exporters.formats.read_stl import read_stl
 from exporters.formats.read_svg import read_svg
 from exporters.formats.readback import Loop, ReadMesh, SmoothLoop
@@ -36,6 +36,7 @@ from geometry.plane.contour import Approximation, Contour, edge_points
 from parts.base.readback import ReadError
 from parts.solids.mesh import Mesh
 from tests.exporters.making import svg_layer
+from tests.exporters.spoil import in_model
 
 SPLINE = fit_spline(Involute(20.0, 0.3, 0.3, 1.1), 1e-4, degree=3, continuity=2).spline
 
@@ -377,6 +378,16 @@ def test_meshes_come_back_as_they_were_written(tmp_path: Path) -> None:
     # an item without a place stands where its part does
     (single,) = read_3mf_assembly(tmp_path / "m.3mf").occurrences
     assert np.array_equal(single.place, np.eye(3, 4))
+
+
+@pytest.mark.parametrize("index", [-1, 8])
+def test_a_triangle_of_a_3mf_names_a_vertex_that_is_there(index: int, tmp_path: Path) -> None:
+    """The last of eight is 7 (3MF core specification, 4.1.4.1); -1 is not another word for it."""
+    write_3mf(tmp_path / "m.3mf", MeshPart("m", MESH, None))
+    assert len(read_3mf(tmp_path / "m.3mf").vertices) == 8
+    in_model(lambda text: re.sub(r'(v[123])="7"', rf'\1="{index}"', text))(tmp_path / "m.3mf")
+    with pytest.raises(ReadError, match="a vertex that is not there"):
+        read_3mf(tmp_path / "m.3mf")
 
 
 def test_objects_and_items_of_a_3mf_are_the_same_at_every_writing(tmp_path: Path) -> None:

@@ -85,6 +85,22 @@ def test_more_edges_than_a_file_carries_are_refused_with_what_leaves_fewer(
             shape_of(job)
 
 
+@pytest.mark.parametrize("more", [{}, {"helix_angle_deg": 25.0}, {"helix_angle_deg": 25.0, "bore_diameter": 5.0}])
+def test_edges_are_counted_in_every_slice_of_a_twisted_wall(
+    more: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two triangles of the file stand on each of them; those that lie are of the faces."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 12, "face_width": 6.0} | more
+    plan = planned(gear, format="stl", tolerance=0.01)
+    with monkeypatch.context() as patch:
+        patch.setattr("exporters.formats.registry._MOST_EDGES", 1)
+        with pytest.raises(ParameterError) as found:
+            shape_of(plan.jobs[0])
+    assert build(plan, tmp_path / "o").well
+    heights = trimesh.load_mesh(tmp_path / "o" / "p.stl").triangles[:, :, 2]
+    assert 2 * found.value.numbers["edges"] == np.count_nonzero(np.ptp(heights, axis=1))
+
+
 def test_what_is_remarked_on_a_file_goes_by_its_part_and_its_edges() -> None:
     """Teeth of module 2 bear 0.1 mm; a plate has none, CAD files are exact; short edges are counted in all periods."""
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 12, "face_width": 3.0}
