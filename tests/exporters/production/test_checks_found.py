@@ -53,13 +53,19 @@ def made(raw: Raw) -> tuple[Any, dict[str, Part], Placing]:
 def test_seats_are_told_by_their_parts_with_their_clearances(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Two pins of 4.9 and one of 5 in rings of 5 mm, one of 4.7 in a ring of 4.95; 1 mm of room is no seat."""
+    """Two pins of 4.9 and one of 5 in rings of 5 mm, one of 4.7 in a ring of 4.95; 1 mm of room is no seat.
+
+    Nor do pins sit in each other that stand one on the other, 0 and 0.1 mm above its 6 mm.
+    """
     parts = {"ring": ring(5.0), "other": ring(4.95), "loose": pin(4.9), "tight": pin(5.0), "slack": pin(4.7),
-             "far": pin(4.0), "turner": PLATE}  # fmt: skip
+             "far": pin(4.0), "lid": pin(3.0), "turner": PLATE}  # fmt: skip
     at = {"ring_1": ("ring", 0), "loose_1": ("loose", 0), "ring_2": ("ring", 40), "loose_2": ("loose", 40),
           "ring_3": ("ring", 80), "tight_1": ("tight", 80), "other_1": ("other", 120), "slack_1": ("slack", 120),
           "ring_4": ("ring", 160), "far_1": ("far", 160)}  # fmt: skip
     stand = {key: {"part": part, "at": [x, 0.0, 0.0]} for key, (part, x) in at.items()}
+    for x, height in ((200.0, 6.0), (240.0, 6.1)):
+        stand |= {f"below_{x:g}": {"part": "far", "at": [x, 0.0, 0.0]}}
+        stand |= {f"above_{x:g}": {"part": "lid", "at": [x, 0.0, height]}}
     raw = {
         "parts": parts, "instances": stand | {"turner": {"at": [0.0, 100.0, 0.0]}},
         "drives": [{"instance": "turner"}], "checks": {"workspace": 20},
