@@ -16,14 +16,16 @@ from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.instances import DriveSpec
-from parts.scene.placing import Closeness, Condition, PlacedMate, Placing, seen_from
+from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
 from parts.scene.standing import Instance
 from parts.texts.checks import CLOSE, OFF_CENTRE, called, condition_message, overlap_told
 from parts.texts.findings import findings_told
 
 if TYPE_CHECKING:
+    from geometry.base.findings import Finding
     from geometry.gears.mesh.search import PairContact
     from parts.scene.steps import StepSpec
+    from parts.scene.train import Train
     from parts.scene.workspace import Struck
 
 
@@ -69,13 +71,12 @@ def scene_checks(
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
             if transmission:
                 _add_transmission(found, mate)
-            turns = [turned for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
+            turns = [abs(turned) for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
-                found["driven_pitches"] = abs(turns[0]) * mate.mating.teeth[0]
-                first, second = ((i.centre, i.rotation) for i in seen_from(mate.first, mate.second))
-                if left := mate.mating.driven(first, second, sum(turns)):
-                    found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
+                found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
+            if left := _driven(mate, placing.train):
+                found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:
@@ -177,6 +178,16 @@ def _mate(mate: PlacedMate, told: _Teller, *, contact: bool) -> dict[str, Any]:
     if mate.conditions:
         found["conditions"] = [_condition(c, mate, told) for c in mate.conditions]
     return found
+
+
+def _driven(mate: PlacedMate, train: Train | None) -> tuple[Finding, ...]:
+    """What is not kept any more of two that touch where the drives have run as far as the scene asks."""
+    if train is None or not isinstance(mate.mating, Touching):
+        return ()
+    import numpy as np
+
+    first, second = (train.placed(one.id, np.array([0.0, 1.0])) for one in (mate.first, mate.second))
+    return mate.mating.driven(first, second)
 
 
 def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:

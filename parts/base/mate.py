@@ -17,6 +17,9 @@ from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
 from parts.base.texts import Text
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from geometry.base.findings import Finding
     from geometry.base.placement import Placement3, Vector
     from geometry.curves.curve import Complex
@@ -26,6 +29,9 @@ if TYPE_CHECKING:
     from geometry.gears.pairs.rack import RackPair
     from geometry.kinematics.mechanism import Joint, Kind
     from parts.base.part_keys import MaterialKeys
+
+    # turns (..., 3, 3) and places (..., 3), mm, of an instance's frame in the scene
+    Frames = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 class MateKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
@@ -206,8 +212,8 @@ class Mating(Joined, kw_only=True):
         """Conditions of both together that are not kept."""
         return ()
 
-    def driven(self, first: Pose, second: Pose, turns: float) -> tuple[Finding, ...]:
-        """Conditions not kept on the way from how both stand, where the first turns so often against its carrier."""
+    def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
+        """Conditions that are not kept where both stand as drives begin and end."""
         return ()
 
     def quantities(self) -> dict[str, Any]:

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.ring import RingGear
     from geometry.gears.teeth.spur import SpurGear
     from geometry.kinematics.mechanism import Joint, Kind
+    from parts.base.mate import Frames
 
     Pair = ExternalPair | InternalPair | RackPair
 
@@ -236,12 +237,13 @@ class RackMating(GearMating):
         short = (Finding("short_rack", float(teeth), float(needed)),) if teeth < needed else ()
         return self.face.findings((*self.pair.findings(), *short), self.pair.effective_contact_ratio)
 
-    def driven(self, first: Pose, second: Pose, turns: float) -> tuple[Finding, ...]:
+    def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
         """Whether the rack slides out of the mesh: its middle then lies half its length or more from the gear."""
         from geometry.base.findings import Finding
 
-        start = ((second[0] - first[0]) * cmath.rect(1.0, -second[1])).real
-        farthest, half = max(abs(start), abs(start + turns * self.pair.travel_per_turn)), self.pair.rack.length / 2
+        turned, middle = second
+        farthest = float(abs(((middle - first[1]) * turned[..., 0]).sum(-1)).max())
+        half = self.pair.rack.length / 2
         return (Finding("rack_runs_out", farthest, half),) if farthest > half else ()
 
     def quantities(self) -> dict[str, Any]:

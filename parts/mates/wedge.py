@@ -17,10 +17,12 @@ from parts.mates.follower import FOLLOWERS, check_end, check_mount, check_plate,
 from parts.mates.sizes import same_as_cam
 
 if TYPE_CHECKING:
+    from geometry.base.findings import Finding
     from geometry.cams.contact.outlines import FollowerEnd
     from geometry.cams.plane.wedge import WedgeCam
     from geometry.gears.mesh.search import PairContact
     from geometry.kinematics.mechanism import Joint
+    from parts.base.mate import Frames
 
 
 class WedgeFollowerSpec(MateKeys, tag="wedge_follower", kw_only=True):
@@ -81,6 +83,16 @@ class WedgeMating(Touching):
         off *= 1j / complex(outwards(self.cam, np.asarray(self.travel)))
         lean = 0.0 if self.end.outline is None else lean * self.module
         return Standing(first[1], math.hypot(off.real, lean), off.imag, 0.0, slides=True)
+
+    def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
+        """Whether the plate slides from under its follower, whose centre then lies beyond an end of it."""
+        from geometry.base.findings import Finding
+
+        turned, at = first
+        slid = self.travel + float((at[0] - at[-1]) @ turned[0, :, 0])
+        travel = min(max(slid, 0.0), self.cam.motion.travel)
+        over, (start, end) = float(self.cam.centre(travel).real) + slid - travel, self.cam.ends
+        return () if start <= over <= end else (Finding("plate_runs_out", over, start if over < start else end),)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over the whole travel; ``phase_off``: mm by which the follower stands too far out."""

@@ -240,3 +240,25 @@ def test_a_told_plate_diameter_works() -> None:
 
 def test_the_mate_is_listed() -> None:
     assert "wedge_follower" in MATES
+
+
+@pytest.mark.parametrize(("kind", "side"), [("roller", None), ("roller", "trailing"), ("pointed", "leading")])
+@pytest.mark.parametrize("slid", [-165.0, -125.0, -115.0, -20.0, 60.0, 75.0])
+def test_a_plate_that_its_drive_takes_from_under_its_follower_is_told(kind: str, side: str | None, slid: float) -> None:
+    """Of a plate from 30 mm before its travel to 30 mm after it, driven by hand: is any of it still below the end?"""
+    text = scene_text(kind, side, 40.0) + f'[[drives]]\ninstance = "plate"\ntravel = {slid}\n'
+    scene = scene_from_toml(text.encode(), "t", "t")
+    parts, matings = make_parts(scene, "t")
+    placing = place(scene.instances, scene.drives, parts, matings, "t")
+    stand = {one.id: one for one in placing.at([slid])}
+    edge = samples(parts["plate"].section(0.0).region.outer).real + stand["plate"].centre.real
+    cam, end = matings[0].cam, stand["follower"]
+    arm = 80.0 if side and matings[0].end.arm_length else 0.0
+    over = (end.centre + arm * np.exp(1j * end.rotation)).real
+    out = not edge.min() <= over <= edge.max()
+    found = scene_checks(placing, parts, scene.drives, "en", contact=False)["mates"][0]
+    told = [f for f in found.get("findings", ()) if f["code"] == "plate_runs_out"]
+    assert bool(told) == out
+    if told:
+        assert told[0]["value"] == pytest.approx(over - stand["plate"].centre.real, abs=1e-9)
+        assert told[0]["limit"] == pytest.approx(min(cam.ends, key=lambda x: abs(x - told[0]["value"])), abs=1e-9)
