@@ -15,6 +15,7 @@ from exporters.production.build import build
 from exporters.production.plan import plan_build
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError, sentence
+from parts.scene.files import built_in_scenes
 from parts.scene.language import language_of
 from parts.scene.load import load_scene, scene_from_dict, scene_from_toml
 
@@ -151,6 +152,37 @@ def test_an_offered_kerf_is_one_that_all_parts_survive() -> None:
         planned(found.value)
         with pytest.raises(SceneError):
             planned(1.001 * found.value)
+
+
+@pytest.mark.parametrize(
+    ("scene", "offset", "side"),
+    [
+        # before: -3.999999, at which the solid's keyway is gone
+        ("barrel_cam", -9.99, "at_least"),
+        # before: a key pointed_diameter, which no part has
+        ("print_gear", -1.2249, "at_least"),
+        ("print_gear", -9.0, "at_least"),
+        ("groove_cam", 5.0, "at_most"),
+    ],
+)
+def test_an_offered_offset_is_one_that_the_solids_of_all_parts_survive(scene: str, offset: float, side: str) -> None:
+    raw = tomllib.loads(built_in_scenes()[scene].read_text("utf-8"))
+
+    def planned(value: float) -> None:
+        made = {**raw, "checks": {}, "exports": [{"format": "stl", "offset": value}]}
+        plan_build(scene_from_dict(made, "test.toml", "test"), "test.toml", [], [])
+
+    with pytest.raises(SceneError) as caught:
+        planned(offset)
+    assert caught.value.key == "exports[1].offset"
+    assert not re.search(r"\d\.\d{7}", str(caught.value))
+    found = caught.value.nearest
+    assert found is not None
+    assert isinstance(found.value, float)
+    assert found.side == side
+    planned(found.value)
+    with pytest.raises(SceneError):
+        planned(1.001 * found.value)
 
 
 def test_a_tolerance_below_the_places_of_an_animation_is_refused(tmp_path: Path) -> None:
