@@ -110,18 +110,18 @@ class Request(Record):
 
         for part in map(self.parts.__getitem__, self.wanted):
             for _ in range(MOST_OFFERS):
-                if found is None or not isinstance(found.value, float):
+                if found is None or not isinstance(given := found.value, float):
                     return found
                 if not (self.export.kind.is_solid or is_flat(part)):
                     break
                 try:
-                    whole(found.value, part)
+                    whole(given, part)
                     break
                 except OffsetError as again:
                     found = again.nearest
                 except GeometryError:
                     # another key of it, or what is wrong with it is told once the offset is right
-                    found = nearest(partial(whole, part=part), found.value, 0.0, share=_SHARE) or found
+                    found = nearest(partial(whole, part=part), given, 0.0, share=_SHARE) or found
                     break
         return found
 
