@@ -28,8 +28,8 @@ from geometry.plane.profile import Label, Profile
 # |gap| up to this part of the follower's distance from the axis is contact
 CONTACT_TOLERANCE = 1e-8
 _ANGLES, _REACH_SAMPLES = 360, 4097
-# samples of each edge of a follower's body, and every how many angles it is looked at
-_BODY_SAMPLES, _BODY_STEP = 33, 5
+# samples of each edge of a follower's body; about the deepest of them as many places to each side, and halvings of that
+_BODY_SAMPLES, _BESIDE, _HALVINGS = 33, 4, 16
 
 
 def follower_contact(
@@ -40,20 +40,19 @@ def follower_contact(
     ``out``: mm by which the follower stands farther out than its motion asks; ``beyond``: the outer wall of a groove,
     whose gaps are the second curve of ``side_gaps``. OVERLAP: a gap below -tolerance somewhere; CONTACT: within
     +-tolerance everywhere, of a groove at one of its walls; else CLEAR. The rest of the follower's body is held
-    against the cam every 5 degrees: where it runs into it, the gap is minus the depth.
+    against the cam too: where it runs into it, the gap is minus the depth, and the angle of the greatest is added.
     """
     angles = contact_angles(cam)
     fence = Fence(cam_shape(cam).profile)
     gaps, points = (_face_gaps if cam.is_flat else _round_gaps)(cam, fence, angles, out)
     if end.outline is not None:
 
-        def body_at(index: int) -> Complex:
-            origin, turn = follower_pose(cam, end, float(angles[index]))
-            lifted = origin + out * _outwards(cam, angles[index : index + 1])
-            return (lifted + body * cmath.exp(1j * turn)) * cmath.exp(-1j * angles[index])
+        def pose(angle: float) -> tuple[complex, complex]:
+            origin, turn = follower_pose(cam, end, angle)
+            lifted = origin + out * complex(_outwards(cam, np.asarray(angle)))
+            return lifted * cmath.exp(-1j * angle), cmath.exp(1j * (turn - angle))
 
-        body, points = body_points(end), points * np.exp(-1j * angles)
-        press_in(gaps, points, fence, body_at, tolerance)
+        angles, gaps, points = press_in(angles, gaps, points * np.exp(-1j * angles), fence, end, pose, tolerance)
         points = points * np.exp(1j * angles)
     outer = gaps
     if beyond is not None:
@@ -69,31 +68,69 @@ def contact_angles(cam: DiskCam) -> Real:
     return distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
 
 
-def body_points(end: FollowerEnd) -> Complex:
-    """Points of a follower's outline in its own frame, mm, without its round end: its centre's gap tells of that."""
-    assert end.outline is not None
-    points = np.concatenate([e.point(np.linspace(*e.domain, _BODY_SAMPLES)) for e in end.outline.edges])
-    return np.asarray(points[np.abs(points - (end.arm_length or 0.0)) > end.radius * (1 + 1e-9)])
+def body_points(end: FollowerEnd, along: Real) -> Complex:
+    """Points of a follower's outline in its own frame, mm: ``along`` counts edges and parts of them.
 
-
-def press_in(gaps: Real, points: Complex, fence: Fence, body_at: Callable[[int], Complex], tolerance: float) -> None:
-    """Gaps and their points where the rest of a follower runs deeper into a cam than its end: minus the depth.
-
-    ``body_at`` gives the follower's outline in the frame of the profile at a place; every fifth one is looked at.
+    Those of its round end are not a number: its centre's gap tells of them.
     """
-    places = range(0, len(gaps), _BODY_STEP)
-    bodies = [body_at(index) for index in places]
-    owners = np.repeat(np.array(places), [len(body) for body in bodies])
-    here = np.concatenate(bodies)
-    held = fence.holds(here)
-    here, owners = here[held], owners[held]
-    if not here.size:
-        return
-    depth = distance_to_profile(here, fence.profile)
-    for row in np.argsort(depth):
-        # the deepest of each place comes last
-        if depth[row] > max(tolerance, -gaps[owners[row]]):
-            gaps[owners[row]], points[owners[row]] = -depth[row], here[row]
+    assert end.outline is not None
+    points, edges = np.empty(along.shape, dtype=complex), end.outline.edges
+    which = np.minimum(np.floor(np.mod(along, len(edges))).astype(int), len(edges) - 1)
+    for index in np.unique(which):
+        (low, high), mine = edges[index].domain, which == index
+        points[mine] = edges[index].point(low + (high - low) * (np.mod(along[mine], len(edges)) - index))
+    return np.where(np.abs(points - (end.arm_length or 0.0)) > end.radius * (1 + 1e-9), points, np.nan)
+
+
+def press_in(
+    places: Real,
+    gaps: Real,
+    points: Complex,
+    fence: Fence,
+    end: FollowerEnd,
+    pose: Callable[[float], tuple[complex, complex]],
+    tolerance: float,
+) -> tuple[Real, Real, Complex]:
+    """Places, gaps and their points where the rest of a follower runs deeper into a cam than its end: minus the depth.
+
+    ``pose`` gives origin and direction of the follower's frame in that of the profile at a place. Where it runs in
+    deepest between the places is one more of them.
+    """
+    assert end.outline is not None
+
+    def depths(at: Real, along: Real) -> tuple[Real, Complex]:
+        """How deep the outline's points stand in the cam, all at each place; 0 outside."""
+        poses = np.array([pose(place) for place in at.tolist()])
+        here = poses[:, :1] + body_points(end, along) * poses[:, 1:]
+        depth, (rows, columns) = np.zeros(here.shape), np.nonzero(np.isfinite(here))
+        held = fence.holds(here[rows, columns])
+        rows, columns = rows[held], columns[held]
+        depth[rows, columns] = distance_to_profile(here[rows, columns], fence.profile)
+        return depth, here
+
+    along = np.linspace(0, len(end.outline.edges), len(end.outline.edges) * (_BODY_SAMPLES - 1), endpoint=False)
+    depth, here = depths(places, along)
+    rows, deepest = np.arange(len(places)), depth.argmax(axis=1)
+    deeper = depth[rows, deepest] > np.maximum(tolerance, -gaps)
+    gaps = np.where(deeper, -depth[rows, deepest], gaps)
+    points = np.where(deeper, here[rows, deepest], points)
+    worst = int(gaps.argmin())
+    if not deeper[worst]:
+        return places, gaps, points
+    at, on, reach = places[worst], along[deepest[worst]], np.array([np.diff(places).max(), 1 / (_BODY_SAMPLES - 1)])
+    beside = np.linspace(-1.0, 1.0, 2 * _BESIDE + 1)
+    for _ in range(_HALVINGS):
+        near = np.clip(at + reach[0] * beside, places[0], places[-1]), on + reach[1] * beside
+        depth, here = depths(*near)
+        row, column = np.unravel_index(depth.argmax(), depth.shape)
+        at, on, reach = near[0][row], near[1][column], reach / 2
+    spot = int(np.searchsorted(places, at))
+    if not depth[row, column] > -gaps[worst]:
+        return places, gaps, points
+    return (
+        np.insert(places, spot, at), np.insert(gaps, spot, -depth[row, column]),
+        np.insert(points, spot, here[row, column]),
+    )  # fmt: skip
 
 
 def judged(

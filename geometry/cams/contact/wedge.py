@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from geometry.cams.contact.follower import body_points, judged, press_in
+from geometry.cams.contact.follower import judged, press_in
 from geometry.cams.contact.outlines import FollowerEnd
 from geometry.cams.plane.fence import Fence
 from geometry.cams.plane.wedge import Upright, WedgeCam, wedge_profile
@@ -21,7 +21,7 @@ def wedge_contact(cam: WedgeCam, end: FollowerEnd, tolerance: float, *, out: flo
     """The gap between plate and follower at 361 places of the travel and at every joint of the motion, mm.
 
     ``drive_angles`` of the answer are travels, mm, its point lies in the plate's frame. ``out`` and the verdicts as in
-    ``follower_contact``; the follower's body is looked at at every fifth place.
+    ``follower_contact``.
     """
     edges = [p.start for p in cam.motion.pieces]
     travel = np.unique(np.concatenate([np.linspace(0, cam.motion.travel, _PLACES), edges]))
@@ -32,12 +32,11 @@ def wedge_contact(cam: WedgeCam, end: FollowerEnd, tolerance: float, *, out: flo
     points = centre - cam.radius * normal / np.abs(normal)
     if end.outline is not None:
 
-        def body_at(index: int) -> Complex:
-            origin, turn = wedge_follower_pose(cam, end, float(travel[index]))
-            return np.asarray(origin + body * cmath.exp(1j * turn) + shift[index])
+        def pose(place: float) -> tuple[complex, complex]:
+            origin, turn = wedge_follower_pose(cam, end, place)
+            return origin + out * complex(outwards(cam, np.asarray(place))), cmath.exp(1j * turn)
 
-        body = body_points(end)
-        press_in(gaps, points, fence, body_at, tolerance)
+        travel, gaps, points = press_in(travel, gaps, points, fence, end, pose, tolerance)
     return judged(travel, (gaps, gaps), points, tolerance)
 
 

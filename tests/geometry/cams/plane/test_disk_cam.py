@@ -440,33 +440,42 @@ def test_verdicts_of_gaps_at_two_walls() -> None:
 
 
 def test_a_body_is_pressed_in_as_deep_as_it_stands() -> None:
-    """Into a disk of radius 10: of each fifth place the deepest point counts, where it is deeper than the end's gap."""
-    fence = Fence(circle(10.0, Label.CAM))
-    gaps, points = np.array([0.0, 0.5, 0.0, 0.0, 0.0, -3.0, 0.0]), np.zeros(7, complex)
-    bodies = {0: np.array([9.0 + 0j, 7.5j, 12.0 + 0j]), 5: np.array([8.0 + 0j, 8.5 + 0j])}
-    press_in(gaps, points, fence, lambda k: bodies[k], 1e-6)
-    assert gaps == pytest.approx([-2.5, 0.5, 0, 0, 0, -3.0, 0])
-    assert points[0] == 7.5j
-    assert not points[1:].any()
-    untouched = gaps.copy()
-    press_in(gaps, points, fence, lambda k: np.array([11.0 + 0j]), 1e-6)
-    assert np.array_equal(gaps, untouched)
+    """A bar that comes down to 9 mm from the axis of a disk of radius 10, between two of the places looked at."""
+    fence, places = Fence(circle(10.0, Label.CAM)), np.arange(5.0)
+    corners = [-20 + 1j, 20 + 1j, 20 + 4j, -20 + 4j]
+    end = FollowerEnd(POINTED, outline=PlateOutline(rounded([(c, 0.0) for c in corners])))
+
+    def bar(place: float) -> tuple[complex, complex]:
+        return complex(0.013, 8 + (place - 1.3) ** 2), 1 + 0j
+
+    told, given = np.array([0.5, 0.0, -0.9, 0.0, 0.0]), np.full(5, 7j)
+    at, gaps, points = press_in(places, told, given, fence, end, bar, 1e-6)
+    assert at[2] == pytest.approx(1.3, abs=1e-4)
+    assert gaps[2] == pytest.approx(-1, abs=1e-8)
+    assert points[2] == pytest.approx(9j, abs=1e-4)
+    # at the places themselves the deepest sample of the bar counts, where it is deeper than the end's gap
+    assert np.delete(gaps, 2) == pytest.approx([0.5, -0.91, -0.9, 0, 0], abs=1e-4)
+    assert points.tolist() == [7j, pytest.approx(9.09j, abs=0.02), pytest.approx(9j, abs=1e-4), 7j, 7j, 7j]
+    untouched = press_in(places, told, given, fence, end, lambda place: (20j, 1 + 0j), 1e-6)
+    assert all(map(np.array_equal, untouched, (places, told, given)))
     # less than the tolerance is none
-    press_in(gaps[:1], points[:1], fence, lambda k: np.array([(10 - 1e-9) + 0j]), 1e-6)
-    assert gaps[0] == -2.5
+    beside = press_in(places, 0 * told, given, fence, end, lambda place: (9j - 1e-9j, 1 + 0j), 1e-6)
+    assert not beside[1].any()
 
 
 def test_a_body_is_looked_at_without_its_round_end() -> None:
     outline = PlateOutline(plate_stem(10.0, 60.0, (30.0, 5.0), 40.0, 1.0))
-    found = body_points(FollowerEnd(MUSHROOM, 40.0, (15.0, 15.0), outline=outline))
-    assert np.abs(found).min() > 40.0 or found.imag.max() == pytest.approx(60.0)
-    assert found.imag.max() == pytest.approx(60.0)
-    assert np.all(np.abs(found) > 40.0 * (1 + 1e-10))
-    on_arm = body_points(FollowerEnd(ROLLER, 8.0, arm_length=20.0, outline=PlateOutline(
-        rounded([(c, 0.0) for c in (0j, 30 + 0j, 30 + 4j, 4j)]))))  # fmt: skip
-    assert np.abs(on_arm - 20.0).min() > 8.0
-    assert on_arm.real.min() == 0.0
-    assert on_arm.real.max() == pytest.approx(30.0)
+    edges = len(outline.edges)
+    found = body_points(FollowerEnd(MUSHROOM, 40.0, (15.0, 15.0), outline=outline), np.linspace(0, edges, 400))
+    told = found[np.isfinite(found)]
+    assert 40 < len(told) < 400
+    assert told.imag.max() == pytest.approx(60.0)
+    assert np.all(np.abs(told) > 40.0 * (1 + 1e-10))
+    square = PlateOutline(rounded([(c, 0.0) for c in (0j, 30 + 0j, 30 + 4j, 4j)]))
+    arm = FollowerEnd(ROLLER, 8.0, arm_length=20.0, outline=square)
+    on_arm = body_points(arm, np.array([0.0, 0.5, 1.0, 1.1, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0]))
+    assert np.flatnonzero(np.isnan(on_arm)).tolist() == [4, 8]
+    assert on_arm[[0, 1, 2, 3, 5, 6, 7, 9]] == pytest.approx([4j, 2j, 0, 3, 30, 30 + 2j, 30 + 4j, 4j])
 
 
 def test_a_face_is_held_by_lines_arcs_and_curves() -> None:
