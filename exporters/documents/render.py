@@ -9,7 +9,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from geometry.base.errors import Nearest
+from parts.base.refusal import SceneError
 from parts.base.texts import N_, Words, words
+from parts.pages.inputs import PLACE
 from parts.pages.page import Section, Sheet, Step, formula_text, number, numbers_text
 from parts.pages.symbols import symbol_text
 from parts.pages.tables import csv_table, html_table, markdown_table, plain_table, table_data
@@ -19,14 +22,24 @@ _GEARS = {1: "first", 2: "second"}
 # what speaks a language, and what is numbers alone
 SPOKEN = ("text", "md", "html", "json")
 FORMATS = (*SPOKEN, "csv")
+_ENDINGS = {"": "text", ".txt": "text"} | {f".{form}": form for form in FORMATS[1:]} | {".htm": "html"}
 # the heads of a page's columns
 _HEADS = (N_("quantity"), N_("formula and numbers"), N_("result"), N_("source"))
 
 
 def form_of(file: Path | None) -> str:
-    """The one of ``FORMATS`` that a file's ending tells, else text."""
-    ending = "" if file is None else file.suffix[1:].lower()
-    return ending if ending in FORMATS else {"htm": "html"}.get(ending, "text")
+    """The one of ``FORMATS`` that a file's ending tells, text where it has none.
+
+    Raises
+    ------
+    SceneError
+        It ends as files of other programs do, which would not open it.
+    """
+    form = _ENDINGS.get("" if file is None else file.suffix.lower())
+    if file is None or form is not None:
+        return form or "text"
+    known = [ending for ending in _ENDINGS if ending]
+    raise SceneError(PLACE, "--out", file.name, "file_ends_in", Nearest(file.with_suffix(".html").name), known=known)
 
 
 def render(sheet: Sheet, form: str, language: str) -> str:

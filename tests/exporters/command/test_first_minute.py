@@ -145,6 +145,17 @@ def test_a_page_has_the_form_that_its_file_s_ending_tells(
     assert (tmp_path / f"text.{name}").read_text(encoding="utf-8").startswith("External gear")
 
 
+@pytest.mark.parametrize("name", ["p.docx", "p.pdf", "p.XLSX", "p.v2"])
+def test_a_page_is_no_file_of_another_program(tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+    """Text under such a name is broken for what opens it; whoever asks for text has it under any."""
+    words = ("calc", "spur", "module=2", "number_of_teeth=23", "--out", tmp_path / name)
+    assert run(*words) == 2
+    assert f'--out = "{name}": the ending of such a file: .txt, ' in (told := capsys.readouterr().err)
+    assert '"p.html" works' in told
+    assert not list(tmp_path.iterdir())
+    assert run(*words, "--format", "text") == 0
+
+
 @pytest.mark.parametrize("command", [("new", "spur_gear"), ("schema",), ("calc", "gear-pair", "practicum_pair")])
 def test_no_page_is_written_over_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], command: tuple[str, ...]
@@ -160,7 +171,7 @@ def test_no_page_is_written_over_a_file(
     assert "is a folder; give the name of a file in it" in capsys.readouterr().err
     assert file.read_text(encoding="utf-8") == "mine"
     assert link.is_symlink()
-    missing = tmp_path / "none" / "a.toml"
+    missing = tmp_path / "none" / "a.md"
     assert run(*command, "--out", missing) == 2
     assert f"{missing}: No such file" in capsys.readouterr().err
     assert run(*command, "--language", "uk", "--out", missing) == 2
