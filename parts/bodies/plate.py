@@ -38,12 +38,15 @@ _PITCH = part_mm("of a grid: from each hole to the next along x", above=0, examp
 _ROW_PITCH = part_mm("the same along y; default: pitch", above=0, example=25.0)
 
 
+_AXIS_OF = Meta(min_length=1, description="the instance whose axle it takes, in place of at")
+
+
 class HoleAtTable(Struct, forbid_unknown_fields=True):
     """A round hole anywhere, or on the axis of an instance; or a grid of them."""
 
     diameter: Annotated[float, part_mm("diameter of the hole", above=0)]
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] | None = None
-    axis_of: Annotated[str, Meta(description="the instance whose axle it takes, in place of at")] | None = None
+    axis_of: Annotated[str, _AXIS_OF] | None = None
     columns: Annotated[int, _COLUMNS] = 1
     rows: Annotated[int, _ROWS] = 1
     pitch: Annotated[float, _PITCH] | None = None

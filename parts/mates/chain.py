@@ -156,7 +156,7 @@ def chain_mesh(
     found = exact_distance(teeth, links, least)
     if found is None:
         more = (k for k in range(links + 1, links + _TRIED) if k % 2 == 0)
-        cure = partial(next, (Nearest(k, "at_least") for k in more if exact_distance(teeth, k, least)), None)
+        cure = partial(next, (Nearest(k) for k in more if exact_distance(teeth, k, least)), None)
         raise ParameterError(keys[0], links, "chain_too_short_for_sprockets", cure)
     if distance is None:
         return ChainMesh(sprockets, found * pitch, links)

@@ -182,7 +182,24 @@ def in_keys_of_file(origins: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except SceneError as refusal:
-        raise refusal.at(_in_file(refusal.key, origins)) from refusal
+        there = refusal.at(_in_file(refusal.key, origins))
+        row, _, key = refusal.key.rpartition(".")
+        if key == "number" and (more := _other_members(row, origins)):
+            there.offer(partial(_with_room, refusal, more))
+        raise there from refusal
+
+
+def _other_members(row: str, origins: Mapping[str, str]) -> int:
+    """How many mates more a mate of a group of instances was told out into beside this one."""
+    return sum(place == origins.get(row) for there, place in origins.items() if there.startswith("mates[")) - 1
+
+
+def _with_room(refusal: SceneError, more: int) -> Nearest | None:
+    """The greatest seat of a group's first member that leaves seats for all, which are counted on from it."""
+    found = refusal.nearest
+    if found is None or not isinstance(found.value, int):
+        return found
+    return Nearest(found.value - more, found.side) if found.value > more else None
 
 
 def _in_file(key: str, origins: Mapping[str, str]) -> str:

@@ -18,7 +18,9 @@ from typing import Any
 
 import pytest
 
+from exporters.production.plan import plan_build
 from geometry.base import nearest as search
+from geometry.base.errors import Nearest
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.plane import undercut
 from parts.base.refusal import SceneError, sentence
@@ -450,3 +452,38 @@ def test_a_wrong_offer_is_noticed() -> None:
         assert fault in judged(raw, wrong)[0]
     untold = SceneError("s", right.key, right.value, "no_such_code_at_all")
     assert "not translated" in judged(raw, untold)[0]
+
+
+def test_a_seat_of_a_group_leaves_seats_for_all_of_it() -> None:
+    """Before: the most was that of the pin alone which had none, 12, with which the next one had none."""
+    raw = scenes()["cycloidal_reducer"]
+    (number,) = (i for i, mate in enumerate(raw["mates"]) if mate["kind"] == "pin_seat")
+
+    def placed(seat: int) -> None:
+        plan_build(scene_from_dict(put(raw, ("mates", number, "number"), seat), "s", "s"), "s", [], [])
+
+    for seat in (2, 12, 1000):
+        with pytest.raises(SceneError) as caught:
+            placed(seat)
+        assert (caught.value.key, caught.value.nearest) == (f"mates[{number + 1}].number", Nearest(1, "at_most"))
+    placed(1)
+
+
+def test_links_of_a_chain_that_are_even_are_no_limit() -> None:
+    """Before: at least 84, where a chain of 83 goes round too, by an offset link."""
+    one = {"kind": "sprocket", "chain": "08B", "number_of_teeth": 17, "face_width": 6.0}
+    drive = {"kind": "chain_drive", "first": "a", "second": "b", "number_of_links": 80}
+    raw: Raw = {"parts": {"a": one, "b": one | {"number_of_teeth": 76}}, "mates": [drive]}
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert (refusal.code, refusal.nearest) == ("chain_too_short_for_sprockets", Nearest(84))
+    for links in (83, 84):
+        assert refusal_of(put(raw, ("mates", 0, "number_of_links"), links)) is None
+
+
+def test_a_hole_on_the_axle_of_nobody_is_refused_by_its_name() -> None:
+    """Before: a plate too small for it, and then an axle beside a place."""
+    hole = {"diameter": 3.0, "at": [0.0, 20.0], "axis_of": ""}
+    refusal = refusal_of({"parts": {"p": {"kind": "plate", "width": 20.0, "height": 26.0, "holes": [hole]}}})
+    assert refusal is not None
+    assert (refusal.key, refusal.value) == ("parts.p.holes[1].axis_of", "")
