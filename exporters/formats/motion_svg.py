@@ -12,10 +12,11 @@ import numpy as np
 from exporters.formats.svg import number, page_head, path_data, save
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from geometry.plane.contour import Approximation
+from geometry.plane.contour import Approximation, Contour
 
 # decimals of places, mm, of angles, degrees, and of corners of what changes, mm
 _PLACE, _ANGLE, CORNERS = 6, 9, 4
+_PINS = "#7f8c99"
 
 
 class Track(Record):
@@ -23,7 +24,7 @@ class Track(Record):
     that of the first again; a single one where it does not move so.
 
     ``forms``: in place of outlines the corners (t, n) of one that changes, at even times too. ``seconds``: of a loop of
-    its own.
+    its own. ``pins`` stand on it, and what ``lines`` surround.
     """
 
     name: str
@@ -33,6 +34,8 @@ class Track(Record):
     angles: Real
     forms: Complex | None = None
     seconds: float | None = None
+    pins: tuple[Contour, ...] = ()
+    lines: tuple[Contour, ...] = ()
 
 
 def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Sequence[float], seconds: float) -> None:
@@ -51,6 +54,12 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
             f"<g{_moved('rotate', angles, seconds)}",
             f'<path d="{data[0]}" style="fill:{track.colour};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;'
             f'stroke-width:{stroke}"{_changed(data, track.seconds or seconds)}',
+            *(
+                f'<path d="{" ".join(path_data(one, 0j) for one in on)}" '
+                f'style="fill:{shade};stroke:#202830;stroke-width:{stroke}"/>'
+                for on, shade in ((track.lines, "none"), (track.pins, _PINS))
+                if on
+            ),
             "</g></g>",
         ]
     save(file, lines)

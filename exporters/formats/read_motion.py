@@ -27,6 +27,7 @@ _KNOWN = {
     "animate": {"attributeName", "dur", "repeatCount", "values"},
     "animateTransform": {"attributeName", "type", "dur", "repeatCount", "values"},
 }
+_ON = r"fill:(none|#7f8c99);stroke:#202830;stroke-width:[\d.]+"
 _STYLE = r"fill:#[0-9a-f]{6};fill-opacity:0\.85;fill-rule:evenodd;stroke:#202830;stroke-width:[\d.]+"
 
 
@@ -34,7 +35,7 @@ class ReadTrack(Record):
     """An instance: values (k,) of its place (mm, y up) and of its turn (rad) at even times, its outlines.
 
     ``forms``: the corners (k, n) of an only one that changes, at even times; ``loops`` has it as it begins.
-    ``seconds``: for its loop (0: it does not move).
+    ``seconds``: for its loop (0: it does not move). ``pins`` and ``lines`` stand on it.
     """
 
     places: Complex
@@ -42,6 +43,8 @@ class ReadTrack(Record):
     loops: tuple[Loop, ...]
     forms: Complex | None = None
     seconds: float = 0.0
+    pins: tuple[Loop, ...] = ()
+    lines: tuple[Loop, ...] = ()
 
     def pose(self, share: Real) -> tuple[Complex, Real]:
         """Place and turn at shares of the loop: SMIL goes straight from value to value."""
@@ -78,14 +81,24 @@ def read_motion(file: Path) -> dict[str, ReadTrack]:
         if inner is None or path is None or name in tracks or not re.fullmatch(_STYLE, path.get("style", "")):
             raise ReadError(f"instance {name} is not one outline within two groups")
         durations = set[str]()
-        loops = tuple(svg_path(part, "") for part in re.findall(r"M[^M]*", path.get("d", "")))
+        loops = _subpaths(path)
+        on = {"none": (), "#7f8c99": ()} | {
+            found[1]: _subpaths(one)
+            for one in inner.findall(f"{_SVG}path")[1:]
+            if (found := re.fullmatch(_ON, one.get("style", ""))) and not len(one)
+        }
+        refuse_if(len(inner.findall(f"{_SVG}path")) != 1 + sum(map(bool, on.values())), "more stands on an outline")
         forms = _forms(path, durations) if len(path) else None
         places, angles = _values(outer, "translate", durations), _values(inner, "rotate", durations)
         refuse_if(len(durations) > 1, "an instance takes unlike times for its loop")
         seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
         turns = np.asarray(-np.radians(angles.real) + 0j)
-        tracks[name] = ReadTrack(places.conj(), turns, loops, forms, seconds)
+        tracks[name] = ReadTrack(places.conj(), turns, loops, forms, seconds, on["#7f8c99"], on["none"])
     return tracks
+
+
+def _subpaths(path: Element) -> tuple[Loop, ...]:
+    return tuple(svg_path(part, "") for part in re.findall(r"M[^M]*", path.get("d", "")))
 
 
 def _values(group: Element, kind: str, durations: set[str]) -> Complex:

@@ -17,7 +17,7 @@ from exporters.formats.svg import fill
 from exporters.production.film import SHARE, TIMES, Film
 from exporters.production.jobs import Made
 from exporters.production.moving_chain import MovingChain, moving_chains
-from exporters.production.seen_above import is_round, seen_lying
+from exporters.production.seen_above import is_round, seen_lying, solid_pins
 from exporters.production.turning_silhouette import Ends, ends_of, thinned
 from exporters.verification.outlines import verify_loops
 from exporters.verification.verdict import Verdict, of_readable
@@ -29,7 +29,7 @@ from geometry.plane.contour import Contour
 from geometry.plane.profile import Profile
 from parts.base.texts import fault, fault_of, unless
 from parts.scene.relative_path import Course
-from parts.scene.standing import Instance
+from parts.scene.standing import UPWARDS, Instance
 
 # of numbers in the file, mm
 _ROUNDING = 2e-6
@@ -153,11 +153,31 @@ class MotionJob(Film, dict=True):
             own = outlines[self._look(instance)]
             if instance.is_over:
                 own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
-            made.append(Track(instance.id, own, colour, even_values(places), turned))
+            on = self._on(instance, [o.geometry for o in own])
+            made.append(Track(instance.id, own, colour, even_values(places), turned, pins=on[0], lines=on[1]))
         for chain in self._chains:
             seconds = self.seconds / abs(chain.pitches)
             made.append(Track(chain.name, (), _CHAIN, np.zeros(1, complex), np.zeros(1), chain.forms, seconds))
         return made, worst + max((x.max_error for row in outlines.values() for x in row), default=0.0)
+
+    def _on(self, instance: Instance, contours: Sequence[Contour]) -> tuple[tuple[Contour, ...], tuple[Contour, ...]]:
+        """What stands on an upright part, which its outlines do not show: pins of one piece, and where discs lie."""
+        if instance.axis != UPWARDS:
+            return (), ()
+        part = self.parts[instance.part]
+        rings = [np.array(stroke[:-1]) for stroke in part.section(0.0).region.strokes if stroke[0] == stroke[-1]]
+        return tuple(solid_pins(part, contours)), tuple(Contour(ring, np.zeros(len(ring))) for ring in rings)
+
+    def _stands_on(self, track: ReadTrack, instance: Instance) -> bool:
+        """Whether what a file shows on an outline is all that stands there."""
+        pins, lines = self._on(instance, [Contour(loop.vertices, loop.bulges) for loop in track.loops])
+        read = [(*pins, *lines), (*track.pins, *track.lines)]
+        return [len(pins), len(lines)] == [len(track.pins), len(track.lines)] and all(
+            a.vertices.shape == b.vertices.shape
+            and float(np.abs(a.vertices - b.vertices).max()) <= _ROUNDING
+            and np.array_equal(a.bulges, b.bulges)
+            for a, b in zip(*read, strict=True)
+        )
 
     def _reach(self, instance: Instance) -> float:
         if instance.id in self._changing:
@@ -222,7 +242,7 @@ class MotionJob(Film, dict=True):
             ends = place + reach * np.exp(1j * angle), read + reach * np.exp(1j * turn)
             worst = max(worst, float(np.abs(place - read).max()), float(np.abs(ends[0] - ends[1]).max()))
             changing, forms = self._changing.get(instance.id), track.formed(TIMES)
-            alike = (changing is None) == (forms is None)
+            alike = (changing is None) == (forms is None) and self._stands_on(track, instance)
             failures += unless(alike, "{part}: its outline is that of another", part=instance.part)
             if changing is not None and forms is not None:
                 outline = max(outline, changing.off_outlines(self.frames(instance, TIMES)[0], forms))

@@ -14,6 +14,7 @@ import numpy as np
 
 from exporters.formats.svg import GROUND, fill, number, page_head, path_data, save, stroke_data, text_line
 from exporters.production.plan import Plan
+from exporters.production.seen_above import solid_pins
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
 from geometry.base.tolerance import DRAWN_DECIMALS
@@ -87,7 +88,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     if cut.strokes:
         name = " ".join(stroke_data(np.round(np.array(stroke), 3), corner) for stroke in cut.strokes)
         lines.append(f'<path d="{name}" style="fill:none;stroke:#0000ff;stroke-width:0.25;stroke-linecap:round"/>')
-    pins = " ".join(path_data(c, corner) for c in _solid_pins(part, boundaries))
+    pins = " ".join(path_data(c, corner) for c in solid_pins(part, [b.geometry for b in boundaries]))
     if pins:
         lines.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 400:.4g}"/>')
     dash = f"{reach / 25:.4g} {reach / 90:.4g} {reach / 150:.4g} {reach / 90:.4g}"
@@ -155,7 +156,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         body.append(f'<path d="{data}" style="{style}"/>')
         if lines_on := _lines_on(plan.parts[instance.part], instance, place, corner):
             body.append(f'<path d="{lines_on}" style="fill:none;stroke:#202830;stroke-width:{reach / 600:.4g}"/>')
-        solid = _solid_pins(plan.parts[instance.part], own) if instance.axis == UPWARDS else []
+        flat = [b.geometry for b in own] if instance.axis == UPWARDS else []
+        solid = solid_pins(plan.parts[instance.part], flat)
         pins = " ".join(path_data(_placed(c, instance, place), corner) for c in solid)
         if pins:
             body.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
@@ -282,16 +284,6 @@ def _lines_on(part: Part, instance: Instance, place: complex, corner: complex) -
     strokes = part.section(0.0).region.strokes if instance.axis == UPWARDS else ()
     turned = (np.array(stroke) * cmath.exp(1j * instance.rotation) + place for stroke in strokes)
     return " ".join(stroke_data(points.round(DRAWN_DECIMALS), corner) for points in turned)
-
-
-def _solid_pins(part: Part, outlines: Outlines) -> list[Contour]:
-    """Where a flat outline has holes in place of pins of one piece: the holes on the pin circle."""
-    if not any(f.code == "flat_pins" for f in part.flat_findings):
-        return []
-    radius = part.circles["pin_circle_diameter"] / 2
-    contours = [a.geometry for a in outlines[:-1]]
-    centres = [complex(np.mean(c.expanded()[0])) for c in contours]
-    return [c for c, at in zip(contours, centres, strict=True) if abs(abs(at) - radius) < 1e-6 * radius]
 
 
 def _label_height(outlines: Outlines, outer: Complex) -> float:

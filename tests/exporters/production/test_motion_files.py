@@ -254,3 +254,63 @@ def test_a_chain_runs_on_with_its_sprockets(tmp_path: Path, turns: float) -> Non
         assert spoiled != text
         file.write_text(spoiled, encoding="utf-8")
         assert run("verify", str(file)) == 1
+
+
+WHOLE_GENEVA = """
+[parts.cross]
+kind = "geneva_wheel"
+number_of_slots = 6
+centre_distance = 60.0
+[parts.driver]
+kind = "geneva_driver"
+of = "cross"
+bore_diameter = 6.0
+[[mates]]
+kind = "geneva_pair"
+first = "driver"
+second = "cross"
+[[drives]]
+instance = "driver"
+turns = 1.0
+"""
+
+
+def test_a_pin_of_one_piece_is_shown_in_its_slot(tmp_path: Path) -> None:
+    """Of 3.75 mm on a circle of 60 sin(30) mm; seen from the cross it goes along a slot while that turns."""
+    assert build(planned(WHOLE_GENEVA + MOTION), tmp_path).well
+    file = tmp_path / "s.motion.svg"
+    (group,) = (g for g in ElementTree.parse(file).getroot().iter(f"{SVG}g") if g.get("id") == "driver")
+    paths = [path.get("d", "") for path in group.iter(f"{SVG}path")]
+    assert len(paths) == 3
+    disc, pin = (
+        np.array([complex(float(x), -float(y)) for x, y in re.findall(r"([-\d.e]+),([-\d.e]+)(?: [MLAZ]|$)", data)])
+        for data in paths[1:]
+    )
+    middle = pin[:-1].mean()
+    assert abs(middle) == pytest.approx(30.0, abs=1e-5)
+    assert np.abs(pin - middle) == pytest.approx(1.875, abs=1e-5)
+    # the disc locks the cross: 60 less its tip circle, no more than the chords of a picture off
+    assert np.abs(disc).max() == pytest.approx(24.375, abs=1e-3)
+    for share in np.linspace(-0.16, 0.16, 9):
+        (centre, turn), (axis, cross) = (at(file, name, float(share % 1.0)) for name in ("driver", "cross"))
+        seen = (centre + middle * cmath.exp(1j * math.radians(turn)) - axis) * cmath.exp(-1j * math.radians(cross))
+        assert abs(seen) * abs(math.sin(3 * cmath.phase(seen))) / 3 < 0.02
+    text, spoiled = file.read_text(encoding="utf-8"), []
+    for line in (one for one in text.splitlines() if "evenodd" not in one and "<path" in one):
+        spoiled += [text.replace(line, new) for new in ("", line.replace('d="M', 'd="M1'), f"{line}\n{line}")]
+        spoiled += [text.replace(line, re.sub(r"(A[\d.]+,[\d.]+ 0 0 . |L)[-\d.]+", r"\g<1>25.5", line, count=1))]
+        spoiled += [text.replace(line, line.replace("fill:", "display:none;fill:"))]
+    assert len(spoiled) == 10
+    for other in spoiled:
+        assert other != text
+        file.write_text(other, encoding="utf-8")
+        assert run("verify", str(file)) == 1, other
+
+
+def test_pins_of_an_output_plate_are_shown_in_the_holes_of_its_disc(tmp_path: Path) -> None:
+    kept = resolved(load_scene("cycloidal_reducer")) | {"exports": [{"format": "motion"}], "checks": {}}
+    assert build(plan_build(scene_from_resolved(kept, "m"), "m", [], []), tmp_path).well
+    (file,) = tmp_path.glob("*.motion.svg")
+    shown = {name: track.pins for name, track in read_motion(file).items() if track.pins}
+    (pins,) = shown.values()
+    assert {len(pins)} == {kept["parts"][next(iter(shown))]["number_of_pins"]}
