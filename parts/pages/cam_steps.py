@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import Annotated, Literal
 
 import numpy as np
@@ -81,15 +82,14 @@ class Phases(Record):
     left_rows: float | None = None
 
     def named(self) -> list[tuple[str, Phase]]:
-        """Every phase as rise, far, return or near; a dwell is far above half of the lift."""
-        found, height = [], 0.0
-        for phase in self.phases:
-            if phase.kind is PhaseKind.DWELL:
-                found.append(("far" if height > self.lift / 2 else "near", phase))
-            else:
-                found.append(("rise" if phase.kind is PhaseKind.RISE else "return", phase))
-            height += phase.lift
-        return found
+        """Every phase as rise, far, return or near; a dwell is far above the middle of where the follower goes."""
+        heights = [0.0, *accumulate(phase.lift for phase in self.phases)]
+        middle = (min(heights) + max(heights)) / 2
+        names = {PhaseKind.RISE: "rise", PhaseKind.RETURN: "return"}
+        return [
+            (names.get(phase.kind, "far" if height > middle else "near"), phase)
+            for phase, height in zip(self.phases, heights, strict=False)
+        ]
 
     def jerks(self) -> list[float]:
         """C_j of each phase in this motion, 0 of dwells: finite where its neighbours go on with its acceleration."""

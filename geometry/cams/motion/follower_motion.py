@@ -23,6 +23,8 @@ TURN = 2 * math.pi
 _CLOSING = 1e-9
 # jumps below this part of lift / angle^k are rounding
 _JUMP = 1e-9
+# lowest places of the follower below this part of its travel are rounding
+_ROUNDING = 1e-12
 
 
 class PhaseKind(StrEnum):
@@ -107,6 +109,11 @@ class PieceMotion:
         """H: greatest minus least S."""
         low, high = self.extremes()
         return high - low
+
+    @property
+    def starts_lowest(self) -> bool:
+        """Whether the follower is never below its place at cam angle 0: the base circle is the least of the cam."""
+        return abs(self.extremes()[0]) <= _ROUNDING * self.lift
 
     def joints(self) -> tuple[Joint, ...]:
         """Every joint of two pieces; the first stands between the last piece and the first."""

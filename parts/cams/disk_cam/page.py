@@ -61,8 +61,6 @@ from parts.pages.inputs import PLACE, SceneKeys, calculation, chosen_part, given
 from parts.pages.misprints import printed_for_cam, printed_for_rise
 from parts.pages.page import Sheet
 
-# lowest places of the follower below this part of its travel are rounding
-_ROUNDING = 1e-12
 # where the page of each kind is made of its keys as a table
 PAGES = {
     "cam": ("parts.cams.disk_cam.page", "disk_sheet"),
@@ -225,7 +223,7 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
 
 def base_step(page: Sheet, cam: DiskCam, formula: str = "", source: str = "", *, given: bool = False) -> None:
     """The base circle; it is the least radius of a cam whose follower stands lowest at S = 0."""
-    lowest = abs(cam.motion.extremes()[0]) <= _ROUNDING * cam.motion.lift
+    lowest = cam.motion.starts_lowest
     name = "least_base_circle_radius" if lowest else "base_circle_radius"
     page.add(name, cam.base_radius, formula, source, given=given)
     if not lowest:

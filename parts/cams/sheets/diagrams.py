@@ -17,6 +17,7 @@ from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales, thinned
 from parts.drawing.canvas import SMALL_TEXT, SQUARE, TEXT_HEIGHT, Box, Canvas, standard_scale, text_width
 from parts.drawing.choice import Asked
+from parts.pages.cam_steps import Phases
 from parts.texts.sheets import sheet_words
 
 LAYERS = {2: "DIAGRAM_BEND", 1: "DIAGRAM_RATE", 0: "DIAGRAM_LIFT"}
@@ -204,16 +205,12 @@ def _phases(
     """Lines through all diagrams where a phase ends, and the names and angles of the phases below."""
     phases = picture.cam.motion.phases
     low, high = area.low + 4.0, area.high - _GAP + 4.0
-    at, height = left, 0.0
+    at = left
     counts: dict[str, int] = {}
     names = []
-    for phase in phases:
-        kind = phase.kind.value
-        if kind == "dwell":
-            kind = "far" if height > picture.cam.motion.lift / 2 else "near"
+    for kind, _ in Phases(phases, picture.cam.motion.lift).named():
         counts[kind] = counts.get(kind, 0) + 1
         names.append((kind, counts[kind]))
-        height += phase.lift
     for index, phase in enumerate(phases):
         length = width * phase.angle / (2 * math.pi)
         if index:

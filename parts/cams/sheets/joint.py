@@ -113,7 +113,11 @@ class Joint(Record):
         if not is_least:
             labels.name("O", to(self.centre), prefer=1 - 1j)
             if self.order == 2:
-                labels.name(f"R_{{min}} = {say(abs(self.centre))}", to((self.centre + self.least) / 2), prefer=1 + 0j)
+                labels.name(
+                    f"{self.picture.base_name} = {say(abs(self.centre))}",
+                    to((self.centre + self.least) / 2),
+                    prefer=1 + 0j,
+                )
         labels.name(f"r_{{0}} = {say(radius)}", to(self.least / 2), prefer=1 + 0j)
         if self.picture.gamma is not None:
             symbol = "γ_{min}" if self.picture.asked or self.order == 2 else "γ"

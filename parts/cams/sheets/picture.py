@@ -53,6 +53,11 @@ class CamPicture(Record):
         """What the motion's numbers are multiplied with to be shown: mm, or degrees for rad."""
         return 180 / math.pi if self.swings else 1.0
 
+    @property
+    def base_name(self) -> str:
+        """The symbol of the base circle: the least radius of a cam whose follower starts from its lowest place."""
+        return "R_{min}" if self.cam.motion.starts_lowest else "R_{b}"
+
     def axis_name(self, order: int) -> str:
         """The motion or one of its derivatives over the cam angle as an axis tells it, with its unit."""
         name = ("ψ" if self.swings else "S") + "'" * order

@@ -240,7 +240,7 @@ def name_profile(labels: Labeller, picture: CamPicture, paper: Paper, *, by_hand
     labels.name("O", paper.point(0j), prefer=1 - 1j)
     turning = paper.point(0.45 * reach.base * cmath.exp(1j * math.radians(230)))
     labels.name("ω", turning, prefer=1 + 1j)
-    name = "R_{min}" if cam.is_flat or cam.radius else "r_{0}"
+    name = picture.base_name if cam.is_flat or cam.radius else "r_{0}"
     spoke = cmath.exp(1j * math.radians(290))
     if base_given or not by_hand:
         text = f"{name} = {say(reach.base)}"

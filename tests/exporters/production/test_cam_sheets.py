@@ -332,6 +332,22 @@ def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
         assert not any("by the drawing" in t.text for t in job_of("practicum_flat_cam", "dxf").canvas.texts)
 
 
+def test_a_follower_that_begins_with_its_return_stands_far_at_0() -> None:
+    """20 mm below the base circle of 30 mm it is near, at 0 far; the least radius of the cam is 10 mm."""
+    phases = [("return_", 100.0), ("dwell", 60.0), ("rise", 120.0), ("dwell", 80.0)]
+    table = [{"move": m, "angle_deg": a} | ({} if m == "dwell" else {"law": "sine"}) for m, a in phases]
+    part = {"kind": "cam", "follower": "roller", "lift": 20.0, "follower_radius": 8.0, "base_circle_radius": 30.0}
+    jobs = plan_build(cam_scene(part | {"phases": table}, **ROUGH), "r", [], []).sheets
+    texts = [t.text for job in jobs if job.path.endswith("dxf") for t in job.canvas.texts]
+    assert [t for t in texts if re.match("φ(near|far).* =", t)] == ["φnear = 60°", "φfar = 80°"]
+    assert [t for t in texts if re.match("R.* =", t)] == ["Rb = 30.00"]
+    typed = "[" + ",".join("{" + ",".join(f"{k}={json.dumps(v)}" for k, v in row.items()) + "}" for row in table) + "]"
+    keys = [f"{k}={v}" for k, v in part.items() if k != "kind"]
+    values = json.loads(calculate("cam", [*keys, f"phases={typed}"], "json", "en"))["values"]
+    assert (values["near_dwell_angle_deg"], values["far_dwell_angle_deg"]) == (60.0, 80.0)
+    assert (values["base_circle_radius"], values["least_cam_radius"]) == (30.0, pytest.approx(10.0))
+
+
 def test_numbers_of_an_axis_have_the_digits_of_their_step() -> None:
     """A lift of 12 mm is told every 2.5 mm; rounded to whole ones that would be 2, 5, 8, 10."""
     scene = cam_scene({"kind": "cam", "follower": "roller", "lift": 12.0, "follower_radius": 6.0,
