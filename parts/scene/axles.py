@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+from collections.abc import Mapping
 
 from msgspec.structs import replace
 
@@ -17,7 +18,7 @@ from parts.scene.standing import UPWARDS
 Parts = dict[str, Part]
 
 
-def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: str) -> bool:
+def waits_for_axles(specs: Mapping[str, MaterialKeys], instances: dict[str, InstanceSpec], source: str) -> bool:
     """Whether a part has a hole for an axle.
 
     Raises
@@ -26,9 +27,9 @@ def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: st
         A hole has a place and an axle, or neither; or that instance is not there.
     """
     found = False
-    for part in parts.values():
-        for number, hole in enumerate(part.keys.holes if isinstance(part.keys, FlatKeys) else (), 1):
-            place = f"parts.{part.id}.holes[{number}]"
+    for part, keys in specs.items():
+        for number, hole in enumerate(keys.holes if isinstance(keys, FlatKeys) else (), 1):
+            place = f"parts.{part}.holes[{number}]"
             if hole.axis_of is None and hole.at is None:
                 raise SceneError(source, f"{place}.at", None, "no_place_of_hole")
             if hole.axis_of is None:
@@ -36,7 +37,7 @@ def waits_for_axles(parts: Parts, instances: dict[str, InstanceSpec], source: st
             if hole.at is not None:
                 told = {"one": "at", "other": "axis_of"}
                 raise SceneError(source, f"{place}.axis_of", hole.axis_of, "either_key", REMOVED, **told)
-            others = {key: spec for key, spec in instances.items() if spec.part != part.id}
+            others = {key: spec for key, spec in instances.items() if spec.part != part}
             if hole.axis_of in instances and hole.axis_of not in others:
                 raise SceneError(source, f"{place}.axis_of", hole.axis_of, "own_axis")
             check_instance(hole.axis_of, others, source, f"{place}.axis_of")

@@ -371,7 +371,10 @@ def _takes(source: str, table: dict[str, Any], key: str, value: object) -> bool:
         return False
     try:
         _export_spec({**own, key: value}, {}, source, "exports")
-    except SceneError:
+    except SceneError as refusal:
+        # another value of it is taken
+        if refusal.nearest is not None and isinstance(refusal.nearest.value, float):
+            raise refusal.at(f"defaults.{key}") from refusal
         return False
     return True
 
@@ -609,12 +612,14 @@ def _made_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Ma
 
 def _bored(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts with the holes of their axles, and the mates."""
-    parts, matings = _made(scene, scene.parts, source)
-    if not any(part.made_by.holes_at(part.keys) for part in parts.values()):
-        return parts, matings
+    lists = [found for spec in scene.parts.values() if isinstance(found := getattr(spec, "holes", None), list)]
+    if not any(hasattr(hole, "axis_of") for holes in lists for hole in holes):
+        return _made(scene, scene.parts, source)
     from parts.scene.axles import waits_for_axles, with_axle_holes
 
-    if not waits_for_axles(parts, scene.instances, source):
+    waits = waits_for_axles(scene.parts, scene.instances, source)
+    parts, matings = _made(scene, scene.parts, source)
+    if not waits:
         return parts, matings
     from parts.scene.placing import place
 

@@ -481,9 +481,17 @@ def test_links_of_a_chain_that_are_even_are_no_limit() -> None:
         assert refusal_of(put(raw, ("mates", 0, "number_of_links"), links)) is None
 
 
-def test_a_hole_on_the_axle_of_nobody_is_refused_by_its_name() -> None:
-    """Before: a plate too small for it, and then an axle beside a place."""
-    hole = {"diameter": 3.0, "at": [0.0, 20.0], "axis_of": ""}
+@pytest.mark.parametrize(("axle", "code"), [("", "not_allowed"), ("nobody", "either_key")])
+def test_a_hole_with_a_place_and_an_axle_is_refused_before_the_plate_is_too_small_for_it(axle: str, code: str) -> None:
+    """Before: the plate's height, and then what stands beside the place."""
+    hole = {"diameter": 3.0, "at": [0.0, 20.0], "axis_of": axle}
     refusal = refusal_of({"parts": {"p": {"kind": "plate", "width": 20.0, "height": 26.0, "holes": [hole]}}})
     assert refusal is not None
-    assert (refusal.key, refusal.value) == ("parts.p.holes[1].axis_of", "")
+    assert (refusal.key, refusal.value, refusal.code) == ("parts.p.holes[1].axis_of", axle, code)
+
+
+def test_a_default_of_exports_is_refused_by_its_value_where_they_have_the_key() -> None:
+    """Before: no part, mate, board or export had a kerf."""
+    refusal = refusal_of({**scenes()["cut gear"], "defaults": {"kerf": 9e-7}})
+    assert refusal is not None
+    assert (refusal.key, refusal.value, refusal.nearest) == ("defaults.kerf", 9e-7, Nearest(0.0))
