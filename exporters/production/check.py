@@ -121,11 +121,10 @@ def check_pair(
 
     ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
     """
-    found, told = _contact(mating, second_turn, centre_shift, tolerance), pair_quantities(mating)
-    findings = findings_told(language, mating.findings())
+    found = _contact(mating, second_turn, centre_shift, tolerance)
     if found is None:
-        return told | ({"findings": findings} if findings else {})
-    worst = found.worst
+        return _told_alone(mating, language)
+    worst, told = found.worst, pair_quantities(mating)
     if "roller_clearance" in told:
         # a groove holds its roller from both sides
         told["walls"] = {k: [min(g), max(g)] for k, g in zip(("inner", "outer"), found.side_gaps, strict=True)}
@@ -138,8 +137,14 @@ def check_pair(
         **_where(mating, worst.drive_angle),
         "point": [worst.point.real, worst.point.imag],
         "labels": [label.value for label in worst.labels],
-        "findings": findings,
+        "findings": findings_told(language, mating.findings()),
     }
+
+
+def _told_alone(mating: Mating, language: str) -> dict[str, Any]:
+    """A pair whose contact is not sought."""
+    findings = findings_told(language, mating.findings())
+    return pair_quantities(mating) | ({"findings": findings} if findings else {})
 
 
 def _contact(mating: Mating, phase: float, shift: float, tolerance: float | None) -> PairContact | None:
@@ -165,7 +170,7 @@ def _where(mating: Mating, drive: float) -> dict[str, float]:
 def _mate(mate: PlacedMate, told: _Teller, *, contact: bool) -> dict[str, Any]:
     """A mate as its instances stand; contact is sought where its conditions hold."""
     if not (contact and all(c.met for c in mate.conditions)):
-        found = pair_quantities(mate.mating)
+        found = _told_alone(mate.mating, told.language)
     elif mate.only_checks:
         module = mate.mating.module if isinstance(mate.mating, Touching) else 0.0
         allowed = max(PLACED_MM, 1e-8 * module)

@@ -288,7 +288,7 @@ class MateKind(Generic[K, A, B]):
         return 0.0, 0.0
 
     def tips(self, keys: K, first: End[A], second: End[B]) -> tuple[float | None, float | None]:
-        """Tip radius (mm) that it wants of each after thinning; the smallest wins, None: as it is."""
+        """Tip radius (mm) that it wants of each after thinning, none longer; the shortest wins, None: as it is."""
         return None, None
 
     def tip_beside(self, keys: K, part: Struct, other: Struct) -> tuple[float, ...]:

@@ -1,6 +1,7 @@
 """The mates of involute gears: two external ones, a pinion in its ring, a gear on its rack.
 
-Each sets distance and phase; the external pair shortens tips, and each thins both gears for its backlash.
+Each sets distance and phase, and thins both gears for its backlash; the external pair shortens tips, the internal one
+those that would reach a fillet.
 """
 
 from __future__ import annotations
@@ -147,9 +148,13 @@ class ExternalMating(GearMating):
 
 
 class InternalMating(GearMating):
-    """A pinion in a ring, in either order. The pair itself has the ring at its origin."""
+    """A pinion in a ring, in either order. The pair itself has the ring at its origin.
+
+    ``alone``: the same pair with the tips that its keys give it, where this mate made them shorter.
+    """
 
     pair: InternalPair
+    alone: InternalPair | None = None
 
     @property
     def ring_first(self) -> bool:
@@ -172,6 +177,15 @@ class InternalMating(GearMating):
         # a pinion that is ahead meets the flanks that a ring would meet that lags behind
         turn = -phase_off / self.pair.gear_ratio if self.ring_first else phase_off
         return GearMesh(self.pair, turn, distance_off)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Conditions that are not kept, and the tips that are not those that the keys alone would give."""
+        from geometry.base.findings import Finding
+
+        pair, alone = self.pair, self.alone or self.pair
+        made = ((2 * p.pinion.tip_radius, 2 * p.ring.tip_radius) for p in (pair, alone))
+        told = zip(pair.roles, *made, strict=True)
+        return *super().findings(), *(Finding(f"tips_shortened_{r}", at, had) for r, at, had in told if at != had)
 
     def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
         found = GearMating._errors(self, distance_off)
@@ -475,6 +489,23 @@ class InternalGearPair(
 
         pinion, ring = (second, first) if first.kind == "ring_gear" else (first, second)
         return internal_pair(pinion.thing, ring.thing, distance)
+
+    def mating(self, keys: InternalGearPairSpec, first: End[Any], second: End[Any]) -> InternalMating:
+        """At the distance that the keys give, and whose tips are not those of its keys."""
+        made = super().mating(keys, first, second)
+        one, two = (replace(e, thing=replace(e.thing, given_tip_diameter=_given(e))) for e in (first, second))
+        alone = self.made(keys, one, two, keys.working_centre_distance).pair
+        return replace(made, alone=alone if any(alone.tips_off_fillets()) else None)
+
+    def tips(self, keys: InternalGearPairSpec, first: End[Any], second: End[Any]) -> tuple[float | None, float | None]:
+        """Those that keep off the mate's fillet; a given tip diameter stays."""
+        pinion, ring = self._reaching(keys, first, second).pair.tips_off_fillets()
+        return (ring, pinion) if first.kind == "ring_gear" else (pinion, ring)
+
+
+def _given(end: End[Any]) -> float | None:
+    """The tip diameter that its keys give."""
+    return float(end.thing.given_tip_diameter) if getattr(end.keys, "tip_diameter", None) is not None else None
 
 
 class RackGearPair(InvolutePair[RackPairSpec, "SpurGear", "Rack", RackMating]):

@@ -1,7 +1,7 @@
 """From the mates of a scene to matings. A mate may change a part only in its tip diameter and its thinning.
 
-Both happen before any region is built: the shortest tip that any mate asks for wins, and thinning is shared out so that
-mates have the backlash that they ask for.
+Both happen before any region is built: the shortest tooth that any mate asks for wins, and thinning is shared out so
+that mates have the backlash that they ask for.
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ from parts.mates.registry import MATES
 
 
 def mated(
-    ends: Mapping[str, End[Any]], mates: Sequence[MateKeys], part_of: Mapping[str, str]
+    ends: Mapping[str, End[Any]], mates: Sequence[MateKeys], part_of: Mapping[str, str], *, shortened: bool = True
 ) -> tuple[dict[str, End[Any]], list[Mating]]:
     """The parts as their mates want them, and the matings; ``part_of``: the part of every instance that they name.
+
+    Not ``shortened``: with the tips that they have alone, as textbooks calculate.
 
     Raises
     ------
@@ -37,10 +39,16 @@ def mated(
         if thinning:
             changed(name, circumferential_thinning=thinning)
     # every mate tells its tips before any is changed
+    wanted: dict[str, float] = {}
     for mate, tips in [(m, _kind(m).tips(m, *both(m))) for m in mates]:
         for end, radius in zip((mate.first, mate.second), tips, strict=True):
-            if radius is not None and radius < final[part_of[end]].thing.tip_radius:
-                changed(part_of[end], given_tip_diameter=2 * radius)
+            if radius is not None:
+                own = final[name := part_of[end]].thing.tip_radius
+                # no mate makes teeth longer: the shortest has its tip farthest from what it was
+                if abs(radius - own) > abs(wanted.get(name, own) - own):
+                    wanted[name] = radius
+    for name, radius in wanted.items() if shortened else ():
+        changed(name, given_tip_diameter=2 * radius)
     return final, [_kind(m).mating(m, *both(m)) for m in mates]
 
 

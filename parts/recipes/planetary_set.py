@@ -12,10 +12,10 @@ from fractions import Fraction
 from functools import cache
 from typing import Annotated, Literal
 
-from msgspec import Meta, convert
+from msgspec import Meta
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept
 from geometry.base.record import Record
 from geometry.base.tolerance import PLACED_MM
@@ -46,8 +46,6 @@ _WHEELS = {
 # the engraved mark of a carrier
 _RIM, _SCREW, _MARGIN, _HANDLE, _MARK = 14.0, 4.0, 12.0, 25.0, 1.0
 _MOST_TURNS = 10_000
-# modules by which a yielding tip diameter keeps off where it would touch a fillet
-_OFF_FILLET = 0.005
 # of the wheels 1, 2, 2', 3
 Shifts = tuple[float, float, float, float]
 
@@ -162,7 +160,7 @@ def _expanded(keys: PlanetarySetKeys) -> Expansion:
     made = _settled(keys)
     making = Making("planetary_set", keys.plate_thickness, keys)
     for wheel in dict.fromkeys(made.wheels):
-        making.part(wheel.id, **_wheel_keys(made, wheel), **_yielding_tip(made, wheel))
+        making.part(wheel.id, **_wheel_keys(made, wheel))
         module = "module" if wheel.module == keys.module else "second_module"
         making.told(wheel.id, number_of_teeth=f"teeth[{wheel.item}]", module=module, helix_angle_deg="helix_angle_deg")
         if keys.shifts is not None:
@@ -287,35 +285,6 @@ def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
     if keys.frame:
         table["tooth_mark"] = mark(keys.face_width)
     return table
-
-
-def _yielding_tip(made: _Set, rim: _Wheel) -> Table:
-    """The tip diameter of a satellite whose default one would reach the fillets of its ring, as it is made."""
-    first, one, two, last = made.wheels
-    central = [wheel for wheel, own in ((first, one), (last, two)) if own == rim]
-    if rim not in (one, two) or not any(wheel.is_ring for wheel in central):
-        return {}
-    from geometry.gears.pairs.external import external_pair
-    from geometry.gears.pairs.internal import internal_pair
-    from parts.gears.ring_gear.part import RingGearSpec, settled_section
-    from parts.gears.spur_gear.part import SpurGearSpec, bare_section
-
-    gear = bare_section(convert(_wheel_keys(made, rim), SpurGearSpec))
-    tip, most = 2 * gear.tip_radius, math.inf
-    try:
-        for wheel in central:
-            table = _wheel_keys(made, wheel)
-            if wheel.is_ring:
-                ring = settled_section(convert(table, RingGearSpec))
-                most = min(most, internal_pair(gear, ring, made.distance).tip_limits[0])
-            else:
-                sun = bare_section(convert(table, SpurGearSpec))
-                tip = 2 * external_pair(gear, sun, made.distance).first.tip_radius
-    except GeometryError:
-        # what is wrong with them is told where they are made
-        return {}
-    # corners pass the end of the involute by less
-    return {"tip_diameter": math.floor(1e4 * (most - _OFF_FILLET * rim.module)) / 1e4} if most < tip else {}
 
 
 def _bore_key(made: _Set, wheel: _Wheel) -> str:

@@ -107,7 +107,8 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     if isinstance(specs[0], RingGearSpec):
         # a pinion is the first of its sheet
         specs.reverse()
-    known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
+    built = {"shortened_tips": True} if kind == "internal_gear_pair" else {}
+    known = {"kind": kind, **built, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
     wishes = {
         key: getattr(mate, key, None) for key in ("working_centre_distance", "normal_backlash", "shaft_angle_deg")
     }

@@ -6,7 +6,7 @@ import math
 from typing import Annotated, Any
 
 import msgspec
-from msgspec import Struct
+from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
 from geometry.gears.pairs.internal import InternalPair, shift_difference
@@ -56,6 +56,7 @@ class InternalKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     second: RingGearSpec
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
+    shortened_tips: Annotated[bool, Meta(description="tips off the mate's fillet, as a scene has them")] = False
 
 
 _WORKING_CENTRE_DISTANCE = mm("wanted distance from axis to datum line", above=0, most=100_000)
@@ -103,7 +104,8 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift / math.cos(helix))
         # shifts that were found for a distance give it back but for rounding
         mate = msgspec.structs.replace(mate, working_centre_distance=None)
-    mating = pair_mated(mate, first, End(ring_keys, checked_ring_gear(ring_keys)))
+    second = End(ring_keys, checked_ring_gear(ring_keys))
+    mating = pair_mated(mate, first, second, shortened=keys.shortened_tips)
     assert isinstance(mating, InternalMating)
     return mating.pair
 

@@ -73,9 +73,9 @@ def mate_of(kind: type[M], keys: Struct) -> M:
     return kind(first="first", second="second", **wishes)
 
 
-def pair_mated(mate: MateKeys, first: End[Any], second: End[Any]) -> Mating:
-    """How both bodies of a pair stand to each other, as their mate wants them."""
-    return mated({"first": first, "second": second}, [mate], {name: name for name in GEARS})[1][0]
+def pair_mated(mate: MateKeys, first: End[Any], second: End[Any], *, shortened: bool = True) -> Mating:
+    """How both bodies of a pair stand to each other, as their mate wants them; ``shortened``: in their tips too."""
+    return mated({"first": first, "second": second}, [mate], {name: name for name in GEARS}, shortened=shortened)[1][0]
 
 
 def section_table(pair: Mapping[str, Any], table: Mapping[str, Any]) -> dict[str, Any]:
