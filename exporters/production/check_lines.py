@@ -91,7 +91,8 @@ def check_lines(
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
                 text += f"; {told.text('the teeth part on their way')}"
         if "walls" in mate:
-            text += f"; {told.text(_WALLS, **mate['walls'], clearance=mate['roller_clearance'])}"
+            walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
+            text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"
         lines.append(text)
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]

@@ -41,6 +41,10 @@ def test_a_pair_of_gears_is_told_by_its_numbers() -> None:
     walls = {"inner": [0.0, 0.01], "outer": [0.05, 0.2]}
     line = one(mates=[PAIR | {"walls": walls, "roller_clearance": 0.2}])
     assert "inner wall 0 to 0.01 mm, at the outer wall 0.05 to 0.2 mm, clearance 0.2 mm" in line
+    noise = {"inner": [-2.13e-14, 3.1e-14], "outer": [-2e-9, 0.2]}
+    assert "inner wall 0 to 0 mm, at the outer wall -2e-09 to 0.2 mm" in one(
+        mates=[PAIR | {"walls": noise, "roller_clearance": 0.2}]
+    )
 
 
 def test_what_is_noted_and_broken_is_told_below_its_mate() -> None:
