@@ -36,7 +36,6 @@ from parts.base.texts import DOMAIN, LOCALE
 from parts.drawing.names import NAME_OF_PART
 from parts.drawing.title_block import LABELS
 from parts.mates.pages.lever_tasks import MACHINES
-from parts.mates.pages.planetary import FAULTS
 from parts.mates.registry import MATES
 from parts.pages.cam_steps import law_text
 from parts.pages.contour_picture import STYLES
@@ -51,6 +50,7 @@ from parts.scene.files import SCENE_FOLDER
 from parts.scene.toml_errors import SENTENCES
 from parts.texts import checks
 from parts.texts.findings import FINDINGS
+from parts.texts.planetary import FAULTS
 from parts.texts.quantities import QUANTITIES
 from parts.texts.sheets import SHEETS
 from tests.sources import told

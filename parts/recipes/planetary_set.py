@@ -226,7 +226,7 @@ def _fitted(keys: PlanetarySetKeys, one: PlanetarySet, apart: Fraction | None) -
     fitting = Fitting(iso_53("A"), _WISH, apart, 0.0, keys.working_centre_distance, beta)
     fit = fitting.fit(one)
     if fit is None:
-        from parts.mates.pages.planetary import broken_told
+        from parts.texts.planetary import broken_told
 
         one_distance, other = (float(d) for d in one.distances)
         # meshes of one distance have it, and break what else a set keeps

@@ -19,7 +19,6 @@ from geometry.gears.planetary.sets import (
     SCHEMES,
     Link,
     PlanetarySet,
-    Scheme,
     Search,
     coaxial_modules,
     found_sets,
@@ -29,14 +28,14 @@ from geometry.gears.planetary.sets import (
 )
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.shifts.internal_shifts import InternalState
-from parts.base.psv import sentences_of
-from parts.base.texts import N_, Message, filled, listed, message
+from parts.base.texts import N_, Message, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.keys.cutter import RackName
 from parts.keys.helix import HelixAngle
 from parts.pages.inputs import calculation, exact
 from parts.pages.page import Sheet
+from parts.texts.planetary import fault_told, meshes_of
 
 TOPIC = "planetary"
 SchemeName = Literal["james", "one_external_one_internal", "two_internal", "david"]
@@ -53,9 +52,6 @@ _WHEELS = ("1", "2", "2'", "3")
 _PAIRS_TOLD = 4
 _MOST_TEETH_OFF = 3
 
-
-# what a mesh may not keep
-FAULTS = sentences_of(__file__, "planetary_faults")
 
 _TEETH = Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3")
 _SPACING = Meta(description="satellites equally spaced, or as equally as alike ones can be")
@@ -96,31 +92,6 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
 def begun(keys: PlanetaryKeys) -> Callable[[], Sheet]:
     """What finishes the sheet of the sets found, or of the one that is given: refused before shifts are sought."""
     return _Page(keys).begun()
-
-
-def _fault(name: str) -> Message:
-    """A condition that is not kept, in words: the rim is the first of a mesh."""
-    condition, _, who = name.rpartition("_")
-    if who not in ("first", "second"):
-        return filled(FAULTS[name])
-    owner = N_("{fault} of the satellite") if who == "first" else N_("{fault} of the central wheel")
-    return message(owner, fault=filled(FAULTS[condition]))
-
-
-def broken_told(fitting: Fitting, one: PlanetarySet) -> list[Message]:
-    """What each mesh of a set breaks without shifts of the rims; none of one that breaks nothing."""
-    meshes = zip(meshes_of(one.scheme), fitting.plain(one).broken(), strict=True)
-    text = N_("mesh {wheels} without shifts of the rims: {names}")
-    return [
-        message(text, wheels=wheels, names=listed([_fault(m.name) for m in broken]))
-        for wheels, broken in meshes
-        if broken
-    ]
-
-
-def meshes_of(scheme: Scheme) -> tuple[str, str]:
-    """The wheels of both meshes, as they are told."""
-    return "1-2", "2'-3" if scheme.double else "2-3"
 
 
 class _Page:
@@ -405,7 +376,7 @@ class _Page:
             "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "
             "clear of whole involutes"
         )
-        page.note(text, wheels=wheels, what=_fault(name), addendum=addendum, allowed=allowed)
+        page.note(text, wheels=wheels, what=fault_told(name), addendum=addendum, allowed=allowed)
         # a search for sets is not to wait for a search for contact
         if self.keys.teeth is not None and (verdict := _exact_verdict(mesh, self.keys)) is not None:
             text = N_("mesh {wheels} without shifts, teeth as cut, by exact contact: {verdict}")
@@ -433,7 +404,7 @@ class _Page:
         page.note("no shifts keep everything: less least_contact_ratio or least_tip_thickness, or other teeth may work")
         for wheels, mesh, broken in self._plain(one):
             if broken:
-                told = listed([_fault(name) for name in broken])
+                told = listed([fault_told(name) for name in broken])
                 page.note("mesh {wheels} without shifts of the rims: {names}", wheels=wheels, names=told)
             self._interference(wheels, mesh, broken)
         unseen = replace(self.fitting, wish=replace(self.fitting.wish, allow_undercut=True)).fit(one)
