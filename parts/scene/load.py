@@ -534,6 +534,13 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
         raise SceneError(source, f"{place}.{key}", getattr(spec, key), code, REMOVED, **numbers)
 
     check_parts(spec.parts or (), parts, source, f"{place}.parts")
+    purposes = tolerances_of(spec.format)
+    if spec.purpose is None:
+        spec.purpose = default_export(spec.format).purpose
+    if spec.purpose not in purposes:
+        # a word that is none at all is refused as it is read: this one is of another format
+        told = {"format": spec.format, "known": list(purposes)}
+        raise SceneError(source, f"{place}.purpose", spec.purpose, "wrong_purpose", None, **told)
     if spec.kerf and spec.offset:
         refuse("kerf", "kerf_and_offset")
     for key in ("kerf", "offset"):
@@ -550,13 +557,6 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
         for key, code in (("kerf", "key_of_board"), ("offset", "not_of_boards"), ("assembly", "not_of_boards")):
             if getattr(spec, key) and not (key == "offset" and spec.format == "3mf"):
                 refuse(key, code)
-    purposes = tolerances_of(spec.format)
-    if spec.purpose is None:
-        spec.purpose = default_export(spec.format).purpose
-    if spec.purpose not in purposes:
-        # a word that is none at all is refused as it is read: this one is of another format
-        told = {"format": spec.format, "known": list(purposes)}
-        raise SceneError(source, f"{place}.purpose", spec.purpose, "wrong_purpose", None, **told)
     check_sheet_keys(spec, source, place)
     kind = spec.kind
     if spec.kerf and kind.form is Form.TRIANGLES:

@@ -119,6 +119,9 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "printing on a laser": ({}, {"purpose": '"print"'}, "exports[1].purpose", "print", "laser"),
     "a purpose of other formats, like none of its own": (
         {}, {"format": '"pdf"', "purpose": '"animation"'}, "exports[1].purpose", "animation", "part, assembly"),
+    # before: assembly, which boards and beds have not, was to be removed, and only then this was told
+    "beds of a format that lies on none": ({}, {"format": '"step"', "purpose": '"plate"', "assembly": "true"},
+                                           "exports[1].purpose", "plate", "step is for model"),
     "path as export name": ({}, {"name": '"../x"'}, "exports[1].name", "../x", "letters"),
     "stl finer than its numbers": ({"module": "1000"}, {"format": '"stl"', "tolerance": "1e-6"},
                                    "exports[1].tolerance", "1e-06", "at least"),
