@@ -211,12 +211,13 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
             _off_places(page, drive, keys, errors)
         if keys.speed_rpm is not None:
             _speeds(page, drive, keys.speed_rpm)
-        if driving is not None or keys.wheel_torque is not None or keys.friction_coefficient:
-            page.section("Torques and losses")
-            # how the flank leans where it carries
-            page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle))
-            formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
-            page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
+        page.section("Torques and losses")
+        # how the flank leans where it carries
+        page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle))
+        formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
+        page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
+        locks = math.tan(drive.pitch_lead_angle) * math.cos(drive.pitch_normal_pressure_angle)
+        page.add("self_locking_friction", locks, "tan({gamma_w}) * cos({alpha_nw})")
         worth = _losses(page, drive, keys)
         torque = _torques(page, drive, keys, driving, worth)
         if torque is not None and keys.form_factor is not None:

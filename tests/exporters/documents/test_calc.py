@@ -998,6 +998,12 @@ def test_a_worm_drive_that_locks_itself_says_so() -> None:
     assert values_of(words)["values"]["back_driving_efficiency"] == 0.0
     assert "self-locking" in calculate("worm", words.split()[1:], "text", "en")
     assert "самогальмівна" in calculate("worm", words.split()[1:], "text", "uk")
+    # asked without any friction, the page tells from which on it would: a hair more locks, a hair less does not
+    edge = values_of("worm module=5 number_of_teeth=40")["values"]["self_locking_friction"]
+    for share, locked in ((1 - 1e-6, False), (1 + 1e-6, True)):
+        words = f"worm module=5 number_of_teeth=40 friction_coefficient={edge * share}"
+        assert (values_of(words)["values"]["back_driving_efficiency"] == 0.0) is locked
+    words = "worm module=5 number_of_teeth=40 torque=3 form_factor=1.5 friction_coefficient=0.12"
     # four starts do not lock: the wheel pushes a wedge of that slope, held by friction
     free = values_of(f"{words} number_of_starts=4 diameter_quotient=8")["values"]
     slope, held = math.atan(4 / 8), math.atan(0.12 / math.cos(math.radians(20)))
