@@ -173,7 +173,7 @@ def _ring(keys: GenevaWheelSpec, wheel: GenevaWheel) -> GenevaWheel:
     for key in _ONLY_EXTERNAL:
         value = getattr(keys, key)
         if value:
-            raise ParameterError(key, None if hasattr(value, "__struct_fields__") else value, "only_of_external",
+            raise ParameterError(key, None if isinstance(value, msgspec.Struct) else value, "only_of_external",
                                  Nearest(None))  # fmt: skip
     holes = holes_of(keys)
     least = least_wall(wheel.root_radius) * (1 + MARGIN)

@@ -612,8 +612,7 @@ def _made_parts(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Ma
 
 def _bored(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts with the holes of their axles, and the mates."""
-    lists = [found for spec in scene.parts.values() if isinstance(found := getattr(spec, "holes", None), list)]
-    if not any(hasattr(hole, "axis_of") for holes in lists for hole in holes):
+    if not any(KINDS[str(keys.__struct_config__.tag)].holes_at(keys) for keys in scene.parts.values()):
         return _made(scene, scene.parts, source)
     from parts.scene.axles import waits_for_axles, with_axle_holes
 
