@@ -15,6 +15,7 @@ from parts.base.readback import ReadError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.step_text import StepForm, StepPart, step_text
+from tests.exporters.making import run, table
 
 PI = math.pi
 Point = dict[str, float]
@@ -91,3 +92,18 @@ def model_of(file: Path) -> float | None:
         return float(read_step(file).model.flux.sum())
     except ReadError:
         return None
+
+
+def test_a_solid_without_one_of_its_faces_is_caught(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A chamfer of 0.2 um that a file does not have: too small for its volume, and no other face is off by it."""
+    sharp = [point(0, 0), point(10, 0), point(10, 5), point(0, 5)]
+    broken = [*sharp[:2], point(10, 5 - 2e-4), point(10 - 2e-4, 5), sharp[3]]
+    for name, points in (("sharp", sharp), ("broken", broken)):
+        text = table("[parts.p]", {"kind": "turned", "points": points}) + table("[[exports]]", {"format": "step"})
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+        assert run("build", tmp_path / f"{name}.toml", "--out", tmp_path) == 0
+    file = tmp_path / "broken" / "p.step"
+    file.write_bytes((tmp_path / "sharp" / "p.step").read_bytes())
+    capsys.readouterr()
+    assert run("verify", file) == 1
+    assert "a cone of the part is missing" in capsys.readouterr().out

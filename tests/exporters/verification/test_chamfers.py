@@ -15,6 +15,7 @@ import pytest
 
 from exporters.formats.read_stl import read_stl
 from exporters.formats.registry import REGISTRY, declared_error, shape_of
+from exporters.production.build import build
 from exporters.production.plan import plan_build
 from exporters.verification.judge import verify_file
 from exporters.verification.mesh import verify_mesh
@@ -191,3 +192,25 @@ def test_an_engraving_beside_a_chamfer_is_measured_however_deep_it_is(depth: flo
     # all that lies within the root circle
     mesh.vertices[np.hypot(*mesh.vertices[:, :2].T) < 14.0, 0] += 0.1
     assert any("deviates" in failure for failure in verify_mesh(mesh, work.exact, declared, 0.01).failures)
+
+
+@pytest.mark.parametrize("kind", ["stl", "step"])
+def test_a_rounding_keeps_a_quarter_of_itself_at_a_face_that_alone_is_chamfered(kind: str, tmp_path: Path) -> None:
+    """0.38 mm deep, a rounding of 0.4 mm is 0.1 mm at the chamfered face and whole at the other."""
+    part = {"kind": "spur_gear", **GEAR, "tip_rounding": 0.4, "face_chamfer": {"above": 0.38}}
+    export = {"format": kind, "tolerance": 0.001}
+    plan = plan_build(scene_from_dict({"parts": {"g": part}, "exports": [export]}, "t", "t"), "t", [], [])
+    assert build(plan, tmp_path / "o").well
+    if kind == "stl":
+        mesh = read_stl(tmp_path / "o" / plan.jobs[0].path)
+        for height, radius in ((4.0, 0.1), (0.0, 0.4)):
+            level = mesh.vertices[mesh.vertices[:, 2] == height]
+            points = level[:, 0] + 1j * level[:, 1]
+            points = points[np.abs(points) > np.abs(points).max() - radius]
+            points = points[np.argsort(np.angle(points))]
+            # the circle through three that follow each other on one rounding
+            a, b, c = points[:-2], points[1:-1], points[2:]
+            across = np.abs(((b - a).conj() * (c - a)).imag)
+            circles = np.abs((b - a) * (c - b) * (a - c)) / (2 * across)
+            # corners are singles on chords of some hundredths of a mm
+            assert circles.min() == pytest.approx(radius, rel=5e-3)

@@ -10,6 +10,7 @@ from geometry.base import nearest
 from parts.base.reasons import reason
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from tests.oracles.exact_gear import GearParameters, junction, radians, relief_corner
 
 SPUR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23}
 RING = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 50}
@@ -126,3 +127,30 @@ def test_of_two_shifts_without_a_cut_the_larger_is_blamed(own: float, cutters: f
     refused = refusal({**SPUR, "profile_shift_coefficient": own, "cutter": cutter})
     assert refused is not None
     assert (refused.key, refused.value) == (f"parts.p.{blamed}profile_shift_coefficient", cutters if blamed else own)
+
+
+def test_a_relief_leaves_no_flank_that_crosses_it_below_the_form_circle() -> None:
+    """Of an undercut gear: refused from the height on at which both crossings are on one circle, to 50 digits."""
+    low, high = 0.8, 1.0
+    for _ in range(18):
+        middle = (low + high) / 2
+        exact = GearParameters(5, 2, radians(20), 1, "0.25", "0.38", "-0.2", relief_depth="0.01", relief_height=middle)
+        above = abs(relief_corner(exact)[2]) > abs(junction(exact).point)
+        low, high = (middle, high) if above else (low, middle)
+    teeth = {**SPUR, "number_of_teeth": 5, "profile_shift_coefficient": -0.2}
+    for height, code in ((low - 1e-6, None), (high + 1e-6, "relief_leaves_no_flank")):
+        refused = refusal({**teeth, "tip_relief": {"depth_coefficient": 0.01, "height_coefficient": height}})
+        assert (refused and (refused.key, refused.code)) == (code and ("parts.p.tip_relief.depth_coefficient", code))
+
+
+@pytest.mark.parametrize(("angle", "code"), [(1.0, "worm_flank_above_reference"), (5.0, "worm_flank_above_root")])
+def test_of_a_thread_that_a_small_wheel_grinds_it_is_told_where_its_flank_begins(angle: float, code: str) -> None:
+    """Above the reference cylinder there is none to be measured; either way more q cures it."""
+    worm = {"kind": "worm", "module": 2.0, "thread_length": 30.0, "diameter_quotient": 3.0, "pressure_angle_deg": angle}
+    refused = refusal({**worm, "form": "ZK1", "grinding_wheel_diameter": 12.0})
+    assert refused is not None
+    assert (refused.key, refused.code) == ("parts.p.diameter_quotient", code)
+    found = refused.nearest
+    assert found is not None
+    assert found.side == "at_least"
+    assert refusal({**worm, "form": "ZK1", "grinding_wheel_diameter": 12.0, "diameter_quotient": found.value}) is None
