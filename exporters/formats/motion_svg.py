@@ -42,7 +42,7 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
     """Write tracks, the lowest first; ``box``: left, low, right, high of all of it, mm."""
     left, low, right, high = box
     stroke = number((right - left) / 900)
-    lines = [page_head(right - left, high - low, left, -high), f"<title>{escape(title)}</title>"]
+    lines = [page_head(right - left, high - low, left, -high, whole=True), f"<title>{escape(title)}</title>"]
     for track in tracks:
         places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places.tolist()]
         angles = [number(-math.degrees(a), _ANGLE) for a in track.angles.tolist()]

@@ -20,13 +20,15 @@ if TYPE_CHECKING:
 
 _SVG = "{http://www.w3.org/2000/svg}"
 _KNOWN = {
-    "svg": {"width", "height", "viewBox", "version"},
+    "svg": {"width", "height", "viewBox", "version", "style"},
     "title": set[str](),
     "g": {"id", "transform"},
     "path": {"d", "style"},
     "animate": {"attributeName", "dur", "repeatCount", "values"},
     "animateTransform": {"attributeName", "type", "dur", "repeatCount", "values"},
 }
+# what keeps it within the window of a browser
+_WITHIN = "max-width:100%;max-height:100vh"
 _ON = r"fill:(none|#7f8c99);stroke:#202830;stroke-width:[\d.]+"
 _STYLE = r"fill:#[0-9a-f]{6};fill-opacity:0\.85;fill-rule:evenodd;stroke:#202830;stroke-width:[\d.]+"
 
@@ -73,6 +75,7 @@ def read_motion(file: Path) -> dict[str, ReadTrack]:
         tag = element.tag.removeprefix(_SVG)
         if tag not in _KNOWN or set(element.keys()) - _KNOWN[tag]:
             raise ReadError(f"holds <{tag}> {sorted(element.keys())}, which a motion does not")
+    refuse_if(root.get("style") not in (None, _WITHIN), "is shown otherwise than as large as it is or as its window")
     tracks = {}
     for outer in root.findall(f"{_SVG}g"):
         inner = outer.find(f"{_SVG}g")

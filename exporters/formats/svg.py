@@ -81,12 +81,20 @@ def stroke_data(points: Complex, origin: complex) -> str:
     return "M" + " L".join(f"{number(x, _MOST_DIGITS)},{number(y, _MOST_DIGITS)}" for x, y in places)
 
 
-def page_head(wide: float, high: float, left: float = 0.0, top: float = 0.0) -> str:
-    """The opening of a picture so many mm wide and high, whose upper left corner stands at (left, top)."""
+# what keeps a picture within the window of a browser; all else goes by its width and height
+_WHOLE = 'style="max-width:100%;max-height:100vh" '
+
+
+def page_head(wide: float, high: float, left: float = 0.0, top: float = 0.0, *, whole: bool = False) -> str:
+    """The opening of a picture so many mm wide and high, whose upper left corner stands at (left, top).
+
+    ``whole``: a browser shows all of it, smaller where its window is.
+    """
     width, height = number(wide), number(high)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
-        f'width="{width}mm" height="{height}mm" viewBox="{number(left)} {number(top)} {width} {height}">'
+        f'{_WHOLE if whole else ""}width="{width}mm" height="{height}mm" '
+        f'viewBox="{number(left)} {number(top)} {width} {height}">'
     )
 
 

@@ -66,7 +66,7 @@ def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path, tol
     legend, bottom = _legend(title, rows, letters, complex(room, across + 2 * room), wide)
     corner = complex(room, across + room)
     lines = [
-        page_head(wide + 2 * room, bottom),
+        page_head(wide + 2 * room, bottom, whole=True),
         GROUND,
         f'<rect x="{room:.4g}" y="{room:.4g}" width="{width:.6g}" height="{across:.6g}" '
         f'style="fill:#faf6ee;stroke:#202830;stroke-width:{2 * line:.4g}"/>',

@@ -77,7 +77,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     deep = max(high - low + 2 * room, text * 1.7 * (len(caption) + 1))
     # alone it stands in the middle of the height of what is written beside it
     corner = complex(room - left, room + high + (deep - high + low - 2 * room) / 2 * (half is None))
-    lines = [page_head(wide, deep + (across + room if across else 0.0)), GROUND]
+    lines = [page_head(wide, deep + (across + room if across else 0.0), whole=True), GROUND]
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
     data = " ".join(path_data(b.geometry, corner) for b in reversed((*tags, *boundaries)))
@@ -195,7 +195,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     rows = [line for row in rows for line in wrap(_unbroken(told.decimal(row)), _WIDE_LETTERS)]
     caption = size * 1.7 * (len(rows) + 1)
     file = folder / scene_preview_name(plan)
-    lines = [page_head(2 * middle, 2 * middle + caption - spare), GROUND]
+    lines = [page_head(2 * middle, 2 * middle + caption - spare, whole=True), GROUND]
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file

@@ -272,3 +272,23 @@ def test_centre_lines_stand_out_of_the_part_by_a_twentieth(corner: complex, seen
     for line, told in zip(lines, seen, strict=True):
         way = np.array([told[0] != told[2], told[1] != told[3]] * 2)
         assert [line[k] for k in ("x1", "y1", "x2", "y2")] == pytest.approx(np.array(told) + out * way)
+
+
+def test_a_browser_shows_a_picture_whole_and_a_laser_cuts_it_at_its_size(tmp_path: Path) -> None:
+    """A rack of 1005 mm: its pictures fit the window, what is cut is never made smaller by it."""
+    gears = {"pinion": ("spur_gear", 18), "rack": ("rack", 80)}
+    text = "".join(
+        f'[parts.{name}]\nkind = "{kind}"\nmodule = 4.0\nnumber_of_teeth = {teeth}\n'
+        for name, (kind, teeth) in gears.items()
+    )
+    text += '[[mates]]\nkind = "rack_pair"\nfirst = "pinion"\nsecond = "rack"\n[[drives]]\ninstance = "pinion"\n'
+    text += "[boards.b]\nwidth = 1100.0\nheight = 400.0\nthickness = 10.0\n"
+    text += '[[exports]]\nformat = "svg"\n[[exports]]\nformat = "svg"\npurpose = "board"\n'
+    (tmp_path / "s.toml").write_text(f'{text}[[exports]]\nformat = "motion"\n', encoding="utf-8")
+    assert run("build", tmp_path / "s.toml", "--out", tmp_path, "-q") == 0
+    found = {file.name: ElementTree.parse(file).getroot().get("style") for file in (tmp_path / "s").glob("*.svg")}
+    cut = {"pinion.svg", "rack.svg", "s.board.1.svg"}
+    assert cut < found.keys()
+    assert {name for name, style in found.items() if style is None} == cut
+    assert set(found.values()) == {None, "max-width:100%;max-height:100vh"}
+    assert {"s.motion.svg", "s.preview.svg", "rack.preview.svg", "s.board.1.preview.svg"} < found.keys()
