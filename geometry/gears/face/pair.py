@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from geometry.base.angles import tangent_length
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_roots
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
@@ -165,10 +165,20 @@ class FacePair(Record, dict=True):
 
     @cached_property
     def end_gap(self) -> float:
-        """How near flanks that drive come over a pitch where they stay farthest apart along the face, mm; 0: lines."""
+        """How near flanks that drive come over a pitch where they stay farthest apart along the face, mm; 0: lines.
+
+        On the cylinders through the tips where the face ends that both have: the pinion may be narrower.
+        """
+        gear, ends = self.gear, self.planes[[0, -1]]
         play = self.normal_backlash / 2 / self.pinion.base_radius
-        gap, _, _ = self._feet(self._drive, -play, [(FLANK, _SHARES)])
-        return float(gap.reshape(-1, len(_SHARES), _PLANES).min(axis=(0, 1)).max())
+
+        def on(share: Real) -> Real:
+            return gear.inner_radius + share * (gear.outer_radius - gear.inner_radius)
+
+        radii = on(_root(lambda share, which: ends[which] - gear.side(FLANK, 1.0, on(share)).x, len(ends)))
+        along = replace(self, low=0.0, high=gear.outer_radius)
+        gap, _, _ = along._feet(self._drive, -play, [(FLANK, _SHARES)], radii)
+        return float(gap.reshape(-1, len(_SHARES), len(radii)).min(axis=(0, 1)).max())
 
     @property
     def _drive(self) -> Real:
@@ -263,10 +273,15 @@ class FacePair(Record, dict=True):
         gap, _, _ = self._feet(turned, off, [(which, np.linspace(0.0, 1.0, _PLACES)) for which in (FILLET, FLANK)])
         return np.asarray(gap.reshape(len(turned), -1).min(axis=1))
 
-    def _feet(self, turned: Real, off: float, places: list[tuple[int, Real]]) -> tuple[Real, Real, Index]:
-        """Of places (side, shares) on all radii at turns (n,): gaps, radii on the pinion, nearest curves."""
+    def _feet(
+        self, turned: Real, off: float, places: list[tuple[int, Real]], radii: Real | None = None
+    ) -> tuple[Real, Real, Index]:
+        """Of places (side, shares) on radii, of the whole face else, at turns (n,): gaps, radii on the pinion, nearest
+        curves.
+        """
         gear, pinion = self.gear, self.pinion
-        radii = np.linspace(gear.inner_radius, gear.outer_radius, _PLANES)
+        if radii is None:
+            radii = np.linspace(gear.inner_radius, gear.outer_radius, _PLANES)
         sides = [gear.side(which, share[:, None], radii) for which, share in places]
         radius, azimuth, depth = (
             np.concatenate([getattr(at, name).ravel() for at in sides]) for name in ("radius", "azimuth", "depth")

@@ -20,6 +20,7 @@ from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
 from parts.solids.mesh import body_mesh, mesh_outlines
+from tests.exporters.making import table
 
 GEAR: dict[str, Any] = {"kind": "face_gear", "module": 2.0, "number_of_teeth": 21, "pinion_number_of_teeth": 14}
 PINION: dict[str, Any] = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 14, "face_width": 9.0}
@@ -319,3 +320,33 @@ def test_forces_of_the_calculation_balance_both_torques(more: tuple[str, ...], p
     assert along * values[plane] / 1000 == pytest.approx(36.0, rel=1e-9)
     assert math.hypot(along, across) == pytest.approx(values["normal_force"], rel=1e-12)
     assert values["normal_force"] * values["base_diameter"]["first"] / 2000 == pytest.approx(12.0, rel=1e-12)
+
+
+def test_how_far_crowned_flanks_stay_off_is_told_of_a_narrower_pinion_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It was told as infinite. In a plane a pinion and its shaper are involutes with one direction of their lines of
+    action: those are as far apart as the base circles, turned with it, and the axes' heights leave them.
+    """
+    z1, z0, z2, m, alpha, width = 12, 15, 90, 2.0, math.radians(25.0), 6.0
+    gear = {"module": m, "number_of_teeth": z2, "pinion_number_of_teeth": z1, "pressure_angle_deg": 25.0,
+            "pinion_profile_shift_coefficient": 0.35, "shaper_number_of_teeth": z0}  # fmt: skip
+    own = {"module": m, "number_of_teeth": z1, "pressure_angle_deg": 25.0, "profile_shift_coefficient": 0.35}
+    pinion = PINION | own | {"face_width": width}
+    file = tmp_path / "s.toml"
+    mate = {"kind": "face_gear_pair", "first": "wheel", "second": "pinion"}
+    file.write_text(
+        table("[parts.wheel]", GEAR | gear) + table("[parts.pinion]", pinion) + table("[[mates]]", mate), "utf-8"
+    )
+    assert main(["check", str(file), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)["mates"][0]["end_gap"]
+    values = json.loads(calculate("face-gear", (str(file),), "json", "en"))["values"]
+    middle = (values["face_inner_diameter"] + values["face_outer_diameter"]) / 4
+
+    def lines(plane: float) -> float:
+        angle = math.acos(m * z2 * math.cos(alpha) / 2 / plane)
+        return m / 2 * math.cos(alpha) * (z1 - z0) * angle + values["contact_plane"] * (z0 - z1) / z2 * math.sin(angle)
+
+    ends = [abs(lines(middle + way * width / 2) - lines(values["contact_plane"])) for way in (-1, 1)]
+    assert told == pytest.approx(max(ends), rel=0.05)
+    assert told < values["end_gap"] / 2
