@@ -42,8 +42,8 @@ _EVENT = 1e-9
 _COMPARED = 0.02
 # teeth on either side of the line of centres that are measured at once where there are more than _MOST_NEAR
 _NEAR_TEETH, _MOST_NEAR = 2, 4
-# parts of the way from the drive angle of the least gap to its neighbours
-_PARTS = 4
+# parts of the way from the drive angles of the least and of the greatest gap to their neighbours, and how often
+_PARTS, _ROUNDS, _LEAST_ROUNDS = 4, 8, 2
 # mm that gaps differ by for rounding
 _SAME = 1e-11
 # far teeth are excluded by gaps that are known to this part of the module
@@ -195,11 +195,18 @@ class MeshSearch:
         angles = self.drive_angles()
         far = FarTeeth.unknown()
         found = least_gaps(self, angles, far=far)
-        for _ in range(2):
+        for k in range(_ROUNDS):
             if _decided(found.gap, allowed):
                 break
-            least = first_least(found.gap.reshape(-1, 2).min(axis=1))
-            extra = between(angles, least, self.pitches[0], _PARTS)
+            gaps = found.gap.reshape(-1, 2).min(axis=1)
+            places = [first_least(gaps)] if k < _LEAST_ROUNDS else []
+            # where teeth part that others do not follow yet, no angle of before need stand
+            top = int(gaps.argmax())
+            parted = gaps[top] - min(gaps[top - 1], gaps[(top + 1) % len(gaps)]) > allowed
+            places += [top] if parted and gaps.min() >= -allowed else []
+            if not places:
+                break
+            extra = np.unique(np.concatenate([between(angles, at, self.pitches[0], _PARTS) for at in places]))
             angles, found = _merged(angles, found, extra, least_gaps(self, extra, far=far))
         sides = found.gap.reshape(-1, 2)
         closed = self.closed_form(angles)
