@@ -18,7 +18,9 @@ from geometry.plane.profile import Profile
 
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
-_COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
+# where one formula gives way to the next no panel is longer than such a part of the whole
+_KNOT_PANELS = 32
+_COARSE_SAMPLES, _FINE_SAMPLES, _LEAST_BETWEEN_KNOTS = 17, 65, 4
 # distances found at once, few enough for the cache, and samples that a point is first held against
 _CACHED, _WINDOW = 30_000, 300
 # lines and arcs that cost less by their closed forms than by samples of all
@@ -48,8 +50,8 @@ def profile_area(profile: Profile) -> float:
     """Signed area inside a closed profile, mm^2, by Green's theorem (counter-clockwise positive).
 
     A profile of one period is measured about its own first point, so that a small hole far from the axis loses no
-    digits. Gauss quadrature of 20 points on 4 panels a segment, or between its knots: exact to rounding for these
-    analytic integrands.
+    digits. Gauss quadrature of 20 points on 4 panels a segment, or on some between its knots: exact to rounding for
+    these analytic integrands where they are not wild.
     """
     return made_once(profile, "area", lambda: _area(profile))
 
@@ -79,9 +81,15 @@ def quadrature(curve: Curve) -> tuple[Real, Real]:
 
 
 def panel_edges(curve: Curve, count: int) -> Real:
-    """Parameters between which a curve is one smooth formula: its knots, or so many equal panels."""
+    """Parameters between which a curve is one smooth formula: its knots and some between, or so many equal panels."""
     low, high = curve.domain
-    return np.array([low, *curve.knots, high]) if curve.knots.size else np.linspace(low, high, count + 1)
+    if not curve.knots.size:
+        return np.linspace(low, high, count + 1)
+    edges = np.array([low, *curve.knots, high])
+    parts = np.maximum(np.ceil(np.diff(edges) * (_KNOT_PANELS / (high - low))), 1).astype(int)
+    return np.array(
+        [*(a + (b - a) * k / n for a, b, n in zip(edges, edges[1:], parts, strict=False) for k in range(n)), high]
+    )
 
 
 def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0.0) -> Real:
@@ -181,7 +189,7 @@ def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex,
     """On every curve that may be nearer than ``most``, what is known already."""
     best = np.full(points.shape, np.inf)
     for curve in curves:
-        t = np.linspace(*curve.domain, _FINE_SAMPLES)
+        t = _fine(curve)
         samples = curve.point(t)
         middle, reach = _disc(samples)
         for turn in turns:
@@ -192,6 +200,16 @@ def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex,
                 found = _projected(near, curve, t, _nearest_index(near, samples), newton=True)
                 best[mine] = np.minimum(best[mine], found)
     return best
+
+
+def _fine(curve: Curve) -> Real:
+    """Parameters of fine samples: evenly, and so many between knots too, which may lie near each other."""
+    even = np.linspace(*curve.domain, _FINE_SAMPLES)
+    if not curve.knots.size:
+        return even
+    edges = np.array([even[0], *curve.knots, even[-1]])
+    each = max(_LEAST_BETWEEN_KNOTS, _FINE_SAMPLES // (len(edges) - 1))
+    return np.unique(np.append(even, edges[:-1, None] + np.diff(edges)[:, None] * (np.arange(each) / each)))
 
 
 def _folded(points: Complex, profile: Profile) -> Complex:
@@ -221,7 +239,7 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
 def _feet(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
     """Parameters of feet by steps from samples."""
     low, high = curve.domain
-    reach = (high - low) / (len(samples) - 1)
+    reach = (high - low) / (min(len(samples), _FINE_SAMPLES) - 1)
     t, before = samples[start], np.full(start.shape, math.nan)
     rows = np.arange(len(t))
     for left in reversed(range(_THOROUGH_STEPS if newton else _QUICK_STEPS)):

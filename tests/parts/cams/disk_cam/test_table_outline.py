@@ -13,13 +13,16 @@ import pytest
 from numpy.typing import NDArray
 
 from exporters.command.cli import main
+from exporters.production.build import build
+from exporters.production.plan import plan_build
 from geometry.approximation.splines import spline_of_spans
 from geometry.cams.motion.follower_motion import dwell, follower_motion, motion_of_table, return_, rise
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.curves import CentreEnvelope
 from geometry.laws.named import polynomial_345, sine
+from geometry.plane.measure import profile_area
 from parts.scene.load import make_parts, scene_from_dict
-from tests.offered import scenes
+from tests.offered import cam, scenes
 
 LIFT, OFFSET, RADIUS = 20.0, 5.0, 8.0
 # base circle of each follower, mm
@@ -231,3 +234,20 @@ def test_splines_and_solids_of_a_table(tmp_path: Path, form: str) -> None:
         0.01 if form == "stl" else 1e-6,
         form,
     )
+
+
+@pytest.mark.parametrize(("row", "base"), [((62.0, 10.0), 40.0), ((60.0, 1000.0), 300.0)], ids=str)
+def test_a_file_of_a_wild_table_is_held_against_the_cam_itself(
+    row: tuple[float, float], base: float, tmp_path: Path
+) -> None:
+    """Before: good files failed their read-back: the area that they were held against was up to 105 mm^2 off."""
+    second = [[60.0, 4.0], list(row)] if row[0] > 60 else [list(row), [120.0, 10.0]]
+    rows = [[0.0, 0.0], *second, [200.0, 8.0], [300.0, 1.0]]
+    part = cam(phases=None, lift=None, motion_table=rows, base_circle_radius=base)
+    plan = plan_build(scene_from_dict({"parts": {"p": part}, "exports": [{"format": "svg"}]}, "s", "s"), "s", [], [])
+    outer = plan.jobs[0].section.region.outer
+    curves = [segment.curve for segment in outer.segments()]
+    dense = np.concatenate([curve.point(np.linspace(*curve.domain, 200_001))[:-1] for curve in curves])
+    exact = float((np.conj(dense) * np.roll(dense, -1)).imag.sum() / 2)
+    assert profile_area(outer) == pytest.approx(exact, rel=1e-6)
+    assert build(plan, tmp_path / "o").well
