@@ -17,7 +17,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import FollowerMotion, PhaseKind
 from geometry.cams.motion.guides import Translating
@@ -111,7 +111,7 @@ def graphical_motion(
     Raises
     ------
     ParameterError
-        A number of intervals out of range, or a motion with rigid impacts or from a table.
+        A number of intervals out of range or too few to raise anything, or a motion with rigid impacts or from a table.
     """
     if not LEAST_INTERVALS <= intervals <= MOST_INTERVALS:
         nearest = limit(min(max(intervals, LEAST_INTERVALS), MOST_INTERVALS), intervals)
@@ -120,26 +120,37 @@ def graphical_motion(
         )
     if (found := graphical_hindrance(motion)) is not None:
         raise ParameterError("phases", None, _CODES[found[0]], law=found[1])
+
+    def raises(count: int) -> bool:
+        laws = {phase.law for phase in motion.phases if phase.law is not None}
+        return all(_summed(law, count, drawing).lift[-1] > 0 for law in laws)
+
+    if not raises(intervals):
+        works = next(filter(raises, range(intervals + 1, MOST_INTERVALS + 1)), None)
+        cure = None if works is None else Nearest(works)
+        raise ParameterError("intervals", intervals, "mid_ordinates_raise_nothing", cure)
     phases: list[GraphicalPhase] = []
     at, height, position = 0.0, 0.0, 0
     for index, phase in enumerate(motion.phases):
         last = index == len(motion.phases) - 1
         end = 2 * math.pi if last else at + phase.angle
         if phase.law is not None:
-            drawn = _integrated(phase.law, intervals, drawing)
-            step = end - at
+            drawn, step = _summed(phase.law, intervals, drawing), end - at
+            # all of it stretched so that the last ordinate is 1, (4.2)
+            factor = 1 / float(drawn.lift[-1])
+            way = factor * phase.lift
             phases.append(
                 GraphicalPhase(
                     phase.kind,
                     phase.law.name,
                     position,
                     np.linspace(at, end, intervals + 1),
-                    drawn.middles * phase.lift / step**2,
-                    drawn.rate_middles * phase.lift / step,
-                    drawn.bend * phase.lift / step**2,
-                    drawn.rate * phase.lift / step,
-                    height + drawn.lift * phase.lift,
-                    drawn.factor,
+                    drawn.middles * way / step**2,
+                    drawn.rate_middles * way / step,
+                    drawn.bend * way / step**2,
+                    drawn.rate * way / step,
+                    height + drawn.lift * way,
+                    factor,
                 )
             )
         position += 1 if phase.law is None else intervals
@@ -148,18 +159,17 @@ def graphical_motion(
 
 
 class _Drawn(Record):
-    """A phase of stroke 1 and length 1."""
+    """A phase of length 1, of a stroke as it comes."""
 
     middles: Real
     rate_middles: Real
     bend: Real
     rate: Real
     lift: Real
-    factor: float
 
 
-def _integrated(law: Law, n: int, drawing: Drawing) -> _Drawn:
-    """Mid-ordinates summed twice, and all of it stretched so that the last ordinate is 1, (4.2)."""
+def _summed(law: Law, n: int, drawing: Drawing) -> _Drawn:
+    """Mid-ordinates summed twice."""
     middles = np.array([_ordinate(law, (i + 0.5) / n) for i in range(n)])
     bend = np.array([(_limit(law, i / n, 1), _limit(law, (i + 1) / n, -1)) for i in range(n)])
     rate = np.concatenate([[0.0], np.cumsum(middles)]) / n
@@ -168,10 +178,7 @@ def _integrated(law: Law, n: int, drawing: Drawing) -> _Drawn:
         # the middle of the cubic through two points with their tangents
         halves = halves + (bend[:, 0] - bend[:, 1]) / (8 * n)
     lift = np.concatenate([[0.0], np.cumsum(halves)]) / n
-    if not lift[-1] > 0:
-        raise ParameterError("intervals", n, "mid_ordinates_raise_nothing")
-    factor = 1 / float(lift[-1])
-    return _Drawn(middles * factor, halves * factor, bend * factor, rate * factor, lift * factor, factor)
+    return _Drawn(middles, halves, bend, rate, lift)
 
 
 def _limit(law: Law, u: float, side: int) -> float:

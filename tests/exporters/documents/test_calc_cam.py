@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
 from tests.exporters.command.test_cli import complaint
 
 CASES = json.loads((Path(__file__).parents[2] / "published" / "cams.json").read_text(encoding="utf-8"))["cases"]
@@ -95,6 +96,19 @@ def test_a_follower_that_does_not_begin_lowest_is_told_its_base_circle_and_the_l
     assert values["base_circle_radius"] == pytest.approx(given, rel=1e-14)
     assert values["least_cam_radius"] == pytest.approx(min(far), rel=1e-6)
     assert values["greatest_cam_radius"] == pytest.approx(max(far), rel=1e-6)
+
+
+def test_a_diagram_of_too_few_intervals_offers_the_fewest_that_raise_the_follower() -> None:
+    """A sharp nose under a point: the middles of 8 intervals miss how it slows down; of one less than offered too."""
+    keys = ["follower=pointed", "base_circle_radius=40", "lift=20",
+            "contour={rise_angle_deg=75.0, nose_radius=5.0}"]  # fmt: skip
+    with pytest.raises(SceneError) as found:
+        calculate("cam", keys, "json", "en")
+    assert (found.value.code, found.value.nearest.side) == ("mid_ordinates_raise_nothing", "exactly")
+    fewest = int(found.value.nearest.value)
+    assert json.loads(calculate("cam", [*keys, f"intervals={fewest}"], "json", "en"))["graphical"]
+    with pytest.raises(SceneError):
+        calculate("cam", [*keys, f"intervals={fewest - 1}"], "json", "en")
 
 
 def rocker_angles(rows: list[dict[str, float]], distance: float, prime: float, sense: int) -> np.ndarray:
