@@ -299,7 +299,7 @@ def _caption(plan: Plan, rows: Sequence[ListRow], covered: set[int], size: compl
         names = ", ".join(map(str, sorted(covered)))
         told.append(words(plan.scene.scene.language).text("without its name in the picture: {names}", names=names))
     wide = _LETTER * _TEXT * (max(map(len, told)) + 2)
-    columns = max(1, int(size.real / wide))
+    columns = max(1, round(size.real / wide))
     deep = -(-len(told) // columns)
     found = [[f'<text x="0" y="{-1.6 * _TEXT:g}" style="font-weight:bold">{escaped(title)}</text>']]
     for k in range(columns):

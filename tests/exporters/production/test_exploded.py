@@ -207,7 +207,7 @@ def test_light_is_on_what_faces_the_viewer(stack: str) -> None:
 
 
 def test_a_plate_of_one_part_has_the_view_of_all_and_long_names_stay_within_it(tmp_path: Path) -> None:
-    file, name = tmp_path / "stack.toml", "Кільце " + "дуже широке " * 8
+    file, name = tmp_path / "stack.toml", "Кільце " + "дуже широке " * 7
     bed = "[beds.b]\nwidth = 200.0\ndepth = 200.0\nheight = 100.0\n[[exports]]\n"
     plate = f'{bed}format = "3mf"\npurpose = "plate"\nparts = ["pin"]\n'
     text = SCENE.format(language="uk").replace("Кільце", name).replace('[[exports]]\nformat = "stl"\n', plate)
@@ -219,6 +219,9 @@ def test_a_plate_of_one_part_has_the_view_of_all_and_long_names_stay_within_it(t
     assert any(name.strip() in words for _, words in texts)
     # letters of 13 are 0.6 of that wide
     assert max(float(x) + 0.6 * 13 * len(words) for x, words in texts) < left + width
+    # one and a half columns of names are as wide as the picture: they stand in two, of some 1650 in all
+    assert len({x for x, words in texts if re.match(r"\d+  ", words)}) == 2
+    assert width < 1800
 
 
 def test_without_an_order_there_is_no_such_view(tmp_path: Path) -> None:
