@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from geometry.base.record import replace
 from geometry.plane.measure import profile_area
 from geometry.solids.mass import body_moments
 from parts.base.part import Part
-from parts.base.refusal import SceneError
+from parts.base.refusal import SceneError, sentence
 from parts.chains.probe import RollerProbe
 from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import read_report, run, write_scene
@@ -137,3 +138,15 @@ def test_files_take_rollers_and_one_that_does_not_is_caught(tmp_path: Path) -> N
     outline.set_points([(p.real, p.imag, b) for p, (_, b) in zip(spoiled, rows, strict=True)], format="xyb")
     document.saveas(tmp_path / "spoiled.dxf")
     assert len(RollerProbe(sprocket, 2.0).run(read_dxf(tmp_path / "spoiled.dxf"), 0.0, 1e-6).failures) == 1
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_every_chain_that_a_refusal_names_is_one(language: str) -> None:
+    """081 of bicycles was not among them, and nothing else led to it."""
+    with pytest.raises(SceneError) as caught:
+        made(PLATE | {"chain": "bicycle"})
+    said = sentence(caught.value, language).partition(":")[2]
+    named = re.findall(r"(?<![\w.-])(?:(?:PR|ПР)-[\d.-]+\d|\d{2,3}[A-Z]?)(?![\w.-])", said)
+    assert {"081", "085", "04C", "48B", "25", "240", "415", "630"} <= {*named}
+    for name in set(named) - {"606", "13568"}:
+        assert made(PLATE | {"chain": name, "bore_diameter": 0.0}).thing.number_of_teeth == 17
