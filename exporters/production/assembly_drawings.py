@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from exporters.production.request import Request
-from geometry.base.placement import Placement3, Vector
+from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Line, arc_between
@@ -63,7 +63,7 @@ def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expecte
 def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, complex]:
     """A point of the section's plane, and its direction: through the axes of the first mate that has two."""
     for mate in placing.mates:
-        step = _foot(mate, mate.first.centre, mate.second.centre, mate.second.axis) - mate.first.centre
+        step = _foot(mate, mate.first.centre, mate.second.scene_from_part) - mate.first.centre
         if {mate.first.part, mate.second.part} <= wanted and abs(step) > _SAME:
             return mate.first.centre, step / abs(step)
     first = next(i for i in placing.instances if i.part in wanted)
@@ -88,10 +88,11 @@ def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: compl
         yield AXIS, Line(ends[3], ends[0])
 
 
-def _foot(mate: PlacedMate, first: complex, second: complex, axis: Vector) -> complex:
-    """Where a mate's line of centres meets its second's axis, by where the frames of both stand in a view, mm."""
-    way = cmath.rect(1.0, mate.mating.centres_direction(second - first, axis))
-    return first + way * (way.conjugate() * (second - first)).real
+def _foot(mate: PlacedMate, first: complex, second: Placement3) -> complex:
+    """Where a mate's line of centres meets its second's axis, by where both stand in a view, mm."""
+    offset = complex(*second.translation[:2]) - first
+    way = cmath.rect(1.0, mate.mating.centres_direction(offset, second))
+    return first + way * (way.conjugate() * offset).real
 
 
 def _meshes(front: Sequence[Shown], placing: Placing) -> list[tuple[str, complex, complex]]:
@@ -101,7 +102,7 @@ def _meshes(front: Sequence[Shown], placing: Placing) -> list[tuple[str, complex
     for mate in placing.mates:
         if isinstance(mate.mating, Touching) and {mate.first.id, mate.second.id} <= places.keys():
             one, two = places[mate.first.id], places[mate.second.id]
-            foot = _foot(mate, one.centre, two.centre, two.axis)
+            foot = _foot(mate, one.centre, two.place)
             found.append((f"axes.{one.id}.{two.id}", one.centre, foot))
     return found
 

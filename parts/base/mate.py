@@ -192,8 +192,8 @@ class Mating(Joined, kw_only=True):
         """The mating with what it has of where both of what ``lies`` stand."""
         return self
 
-    def centres_direction(self, offset: complex, axis: Vector) -> float:
-        """Of the line of centres, rad, where the second's frame stands so against the first."""
+    def centres_direction(self, offset: complex, stand: Placement3) -> float:
+        """Of the line of centres, rad, where the second's frame stands so, its origin that far off the first's."""
         return cmath.phase(offset)
 
     def rollers(self, first: Pose, second: Pose) -> tuple[Complex, float] | None:

@@ -64,9 +64,10 @@ class CrossedMating(Touching):
         aside = complex(self.distance, -self.pair.feet[1] * math.sin(self.pair.shaft_angle))
         return centre + cmath.rect(1.0, direction) * aside, self.pair.second_rotation(rotation, direction)
 
-    def centres_direction(self, offset: complex, axis: Vector) -> float:
+    def centres_direction(self, offset: complex, stand: Placement3) -> float:
         """At right angles to both axes."""
-        across = complex(axis[1], -axis[0]) or offset
+        x, y, _ = stand.z
+        across = complex(y, -x) or offset
         return cmath.phase(across * math.copysign(1.0, (across.conjugate() * offset).real))
 
     def laid(self, first: Placement3, second: Placement3) -> CrossedMating:

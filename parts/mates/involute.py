@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from msgspec import Struct
 
     from geometry.base.findings import Finding
+    from geometry.base.placement import Placement3
     from geometry.gears.mesh.search import MeshSearch, PairContact
     from geometry.gears.mesh.transmission_error import TransmissionError
     from geometry.gears.pairs.external import ExternalPair
@@ -228,6 +229,11 @@ class RackMating(GearMating):
         space = 0.0 if self.pair.rack.number_of_teeth % 2 == 0 else self.pair.rack.pitch / 2
         along = self.pair.rack_position(turned) - space
         return centre + cmath.rect(1.0, direction) * complex(self.distance, along), direction + math.pi / 2
+
+    def centres_direction(self, offset: complex, stand: Placement3) -> float:
+        """Against the rack's teeth, wherever its middle has slid."""
+        (_, x, _), (_, y, _), _ = stand.rotation
+        return cmath.phase(-complex(x, y) or offset)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Distance of the datum line, and how far the rack is off the middle of its backlash, mm."""

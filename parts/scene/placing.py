@@ -68,7 +68,7 @@ class PlacedMate(Record):
     def direction(self) -> float:
         """Direction of the line of centres as placed, about the first's axis from its x as it is laid, rad."""
         first, second = seen_from(self.first, self.second)
-        return self.mating.centres_direction(second.centre - first.centre, second.axis)
+        return self.mating.centres_direction(second.centre - first.centre, second.scene_from_part)
 
     def rollers(self, turned: float = 0.0) -> tuple[Complex, float] | None:
         """The rollers of a chain that runs upright, its first ``turned`` on, rad, and their radius, mm; else None."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections import Counter
 from collections.abc import Sequence
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 import shapely
 
+from exporters.command.cli import main
 from exporters.production import assembly_drawings
 from exporters.production.plan import plan_build
 from exporters.production.sheets import SheetJob
@@ -88,6 +90,32 @@ def test_sizes_measure_the_scene_and_every_position_has_its_number(
     audit = ezdxf.readfile(files["dxf"]).audit()
     assert not audit.errors
     assert not audit.fixes
+
+
+def test_a_rack_stands_off_the_gear_by_its_datum_line_wherever_its_middle_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The middle tooth of an odd rack lies beside a space of the gear: drawing and check went from the gear's axis to
+    that middle, and told directions of 27 and of -43 degrees. The other gear stands ten pitches further along.
+    """
+    file = tmp_path / "s.toml"
+    file.write_text(
+        '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n'
+        '[parts.rack]\nkind = "rack"\nmodule = 2.0\nnumber_of_teeth = 41\n[instances.gear]\n'
+        '[instances.other]\npart = "gear"\n'
+        f"at = [{-20 * math.pi * math.sin(math.pi / 6)}, {20 * math.pi * math.cos(math.pi / 6)}, 0.0]\n"
+        '[[mates]]\nkind = "rack_pair"\nfirst = "gear"\nsecond = "rack"\ndirection_deg = 30.0\n'
+        '[[mates]]\nkind = "rack_pair"\nfirst = "other"\nsecond = "rack"\n'
+        '[[exports]]\nformat = "dxf"\npurpose = "assembly"\n[[exports]]\nformat = "svg"\npurpose = "assembly"\n',
+        "utf-8",
+    )
+    main(["check", str(file), "--json"])
+    told = json.loads(capsys.readouterr().out)["mates"]
+    assert [mate["direction_deg"] for mate in told] == pytest.approx([30.0, 30.0])
+    assert [mate["verdict"] for mate in told] == ["contact", "contact"]
+    (dxf,) = (path for name, path in written(tmp_path, tomllib.loads(file.read_text("utf-8"))).items() if name == "dxf")
+    found = sorted(sizes(dxf).values())
+    assert min(abs(20.0 - size) for size in found) < 1e-6
 
 
 def test_a_position_that_no_view_shows_is_told() -> None:
