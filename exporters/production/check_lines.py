@@ -48,8 +48,10 @@ _UNITS = {"mm": N_("mm"), "deg": N_("deg")}
 
 
 def names_of(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -> dict[str, str]:
-    """What people call each instance."""
-    return {key: spec.title or parts[str(spec.part)].called(key) for key, spec in instances.items()}
+    """What people call each instance; those of one name with their ids."""
+    names = {key: spec.title or parts[str(spec.part)].called(key) for key, spec in instances.items()}
+    many = Counter(names.values())
+    return {key: f"{name} ({key})" if many[name] > 1 else name for key, name in names.items()}
 
 
 def picture_names(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -> dict[str, str]:

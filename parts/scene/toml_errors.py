@@ -20,7 +20,9 @@ _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*
 # a list without brackets, a number with its unit, a key that is not in Latin letters
 _BARE_WORDS = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(\"[^\"]*\"(?:\s*[,;]\s*\"[^\"]*\")+)\s*\)?\s*(?:#.*)?")
 _BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*\)?\s*(?:#.*)?")
-_UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)(\s*)(%|[^\W\d_]+(?:/[^\W\d_]+)?[²³]?)\.?\s*(?:#.*)?")
+_UNIT = re.compile(
+    r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)(\s*)([%\"\u2033]|[^\W\d_]+(?:/[^\W\d_]+)?[²³]?)\.?\s*(?:#.*)?"
+)
 # a number, text or list that would be one but for a colon, a second sign, a lone point, a first 0, a printed minus or
 # degree, or for what other languages end a line with
 _ALMOST = re.compile(
@@ -141,7 +143,7 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
     # a letter right behind a digit may be meant for one
     if (found := _UNIT.fullmatch(line)) and look_alike(found[1] if found[3] else line) is None:
         units = {name: float(size) for name, size in rows_of(__file__, "units")}
-        if size := units.get(unicodedata.normalize("NFKC", found[4]).lower()):
+        if size := units.get(found[4].lower()):
             value = f"{float(found[2]) * size:.12g}"
             return "number_in_other_unit", {"line": number, "key": found[1], "value": value}
         return "number_with_unit", {"line": number, "key": found[1], "value": found[2]}

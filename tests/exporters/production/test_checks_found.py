@@ -203,3 +203,19 @@ def test_a_rack_that_its_drive_takes_out_of_the_mesh_is_told(
     if told:
         assert told[0]["value"] == pytest.approx(abs(rack.centre.imag), abs=1e-9)
         assert told[0]["limit"] == pytest.approx(np.ptp(placed) / 2, abs=1e-9)
+
+
+def test_two_of_one_title_are_told_by_their_ids(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Before: pair Gear - Gear, drive Gear: Gear = 1, Gear = -0.5; a title of its own stays as it is."""
+    gear = {"kind": "spur_gear", "module": 2.0, "title": "Gear"}
+    text = "".join(table(f"[parts.{key}]", gear | {"number_of_teeth": z}) for key, z in (("a", 20), ("b", 40)))
+    text += table("[parts.c]", gear | {"number_of_teeth": 30, "title": "Idler"})
+    for second, way in (("b", 0.0), ("c", 180.0)):
+        pair = {"kind": "external_gear_pair", "first": "a", "second": second, "direction_deg": way}
+        text += table("[[mates]]", pair)
+    (tmp_path / "s.toml").write_text(text + table("[[drives]]", {"instance": "a"}), encoding="utf-8")
+    assert run("check", tmp_path / "s.toml") == 0
+    said = capsys.readouterr().out
+    assert "pair Gear (a) - Gear (b)" in said
+    assert "pair Gear (a) - Idler" in said
+    assert "Gear (a) = 1, Gear (b) = -0.5, Idler = -0.666667" in said

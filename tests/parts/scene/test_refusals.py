@@ -559,6 +559,8 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("lift = 0.5 cm", "lengths in mm, angles in degrees: lift = 5"),
         ("lift = 1.25 см.  # twelve and a half", "lengths in mm, angles in degrees: lift = 12.5"),
         ("lift = 2 Inches", "lengths in mm, angles in degrees: lift = 50.8"),
+        ('lift = 0.25"', "lengths in mm, angles in degrees: lift = 6.35"),
+        ("lift = 0.25 \u2033  # of an inch", "lengths in mm, angles in degrees: lift = 6.35"),
         ("lift = 3 дюйми", "lengths in mm, angles in degrees: lift = 76.2"),
         ("lift = 250 \u00b5m", "lengths in mm, angles in degrees: lift = 0.25"),
         ("angle_deg = 0.5 рад", "lengths in mm, angles in degrees: angle_deg = 28.6478897565"),
