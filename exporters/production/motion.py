@@ -15,9 +15,10 @@ from exporters.formats.read_motion import ReadTrack, read_motion
 from exporters.formats.readback import Loop
 from exporters.formats.svg import fill
 from exporters.production.film import SHARE, TIMES, Film
+from exporters.production.flat_pins import solid_pins
 from exporters.production.jobs import Made
 from exporters.production.moving_chain import MovingChain, moving_chains
-from exporters.production.seen_above import is_round, seen_lying, solid_pins
+from exporters.production.seen_above import is_round, seen_lying
 from exporters.production.turning_silhouette import Ends, ends_of, thinned
 from exporters.verification.outlines import verify_loops
 from exporters.verification.verdict import Verdict, of_readable

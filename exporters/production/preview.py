@@ -13,8 +13,8 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from exporters.formats.svg import GROUND, fill, number, page_head, path_data, save, stroke_data, text_line
+from exporters.production.flat_pins import solid_pins
 from exporters.production.plan import Plan
-from exporters.production.seen_above import solid_pins
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
 from geometry.base.tolerance import DRAWN_DECIMALS

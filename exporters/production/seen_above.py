@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -12,7 +11,6 @@ import numpy as np
 from geometry.approximation.chords import approximate_profile
 from geometry.base.placement import Placement3
 from geometry.curves.line_arc import Line
-from geometry.plane.contour import Contour
 from geometry.plane.profile import Label, Profile, Segment
 from parts.base.part import Part
 from parts.scene.half_sections import sectioned
@@ -70,15 +68,6 @@ def seen_lying(part: Part, instance: Instance, chord: float, *, spins: bool) -> 
 def is_round(part: Part) -> bool:
     """Whether what turns about its axis is seen as what it sweeps: it is round, or has teeth."""
     return sectioned(part).half is not None or not 0 < shape_of(part).count(0.0, math.inf) < _TEETH
-
-
-def solid_pins(part: Part, contours: Sequence[Contour]) -> list[Contour]:
-    """Where a flat outline has holes in place of pins of one piece: the holes on the pin circle; its outer one last."""
-    if not any(f.code == "flat_pins" for f in part.flat_findings):
-        return []
-    radius = part.circles["pin_circle_diameter"] / 2
-    centres = [complex(np.mean(c.expanded()[0])) for c in contours[:-1]]
-    return [c for c, at in zip(contours, centres, strict=False) if abs(abs(at) - radius) < 1e-6 * radius + _SAME]
 
 
 def outer_points(part: Part, chord: float) -> tuple[Complex, float]:
