@@ -468,40 +468,45 @@ class ForcePage:
         fine = self.forces.at(self.levers.moved(turn.angles))
         if not fine.held.any():
             return
-        most = [self._most(fine, turn, pair) for pair in pairs]
+        *most, (up, _), (down, _) = self._most(fine, turn, pairs)
         greatest = [(f"R_{pair}", value, math.degrees(at) % 360) for pair, (value, at) in zip(pairs, most, strict=True)]
         heads = [(N_("force"), ""), (N_("value"), "N"), ("φ_1", "deg")]
         page.table("greatest_forces", N_("Greatest reactions in the joints over the turn"), heads, greatest)
-        moments = [sign * self._most(fine, turn, None, sign)[0] / 1000 for sign in (1, -1)]
         page.section("Forces over a turn")
-        page.told(greatest_balancing_moment=moments[0], least_balancing_moment=moments[1])
+        page.told(greatest_balancing_moment=up / 1000, least_balancing_moment=-down / 1000)
         # what the resistance asks has corners at the dead points; its work has not
         smooth = (fine.found.moment / 1000 - self.forces.against(fine))[fine.held]
         work = self.forces.work(self.levers.moved(turn.marks))[-1]
         page.add("mean_balancing_moment", float(smooth.mean() + work / (2 * math.pi)))
 
-    def _most(self, fine: Loaded, turn: Turn, pair: str | None, sign: int = 1) -> tuple[float, float]:
-        """The greatest reaction in a joint, N, or balancing moment, N mm, over the turn, and the crank's angle, rad.
+    def _most(self, fine: Loaded, turn: Turn, pairs: list[str]) -> list[tuple[float, float]]:
+        """The greatest over the turn, and where, rad: of reactions in joints, N, of the balancing moment, N mm, and of it
+        with the other sign.
 
         At a dead point the resistance turns round, and a reaction jumps: there both ends of the jump count.
         """
 
-        def values(loaded: Loaded) -> Real:
-            found = sign * loaded.found.moment if pair is None else np.abs(loaded.found.forces[pair])
-            return np.where(loaded.held, found, _NOT_HELD)
+        def values(angles: Real, going: Real | None = None) -> Real:
+            return of(self.forces.at(self.levers.moved(angles), going))
 
-        def at(angles: Real, going: Real) -> Real:
-            return values(self.forces.at(self.levers.moved(angles), going))
+        def of(loaded: Loaded) -> Real:
+            moment, forces = loaded.found.moment, loaded.found.forces
+            return np.where(loaded.held, [*(np.abs(forces[pair]) for pair in pairs), moment, -moment], _NOT_HELD)
 
-        found = values(fine)
-        near = tops(found)
-        going = self.forces.going(fine.moving)[near]
-        beside = crests(lambda angles: at(angles, going), turn.angles[near], turn.step)
-        seen = [(turn.angles, found), (beside, values(self.forces.at(self.levers.moved(beside))))]
-        seen += [(turn.dead, at(turn.dead, np.full(len(turn.dead), way))) for way in (1.0, -1.0)]
-        places, sizes = (np.concatenate(of) for of in zip(*seen, strict=True))
-        most = int(np.argmax(sizes))
-        return float(sizes[most]), float(places[most])
+        found = of(fine)
+        mine = [tops(row) for row in found]
+        rows, near = np.repeat(np.arange(len(mine)), [len(row) for row in mine]), np.concatenate(mine)
+        going, each = self.forces.going(fine.moving)[near], np.arange(len(near))
+        beside = crests(lambda angles: values(angles, going)[rows, each], turn.angles[near], turn.step)
+        ends = [values(turn.dead, np.full(len(turn.dead), way)) for way in (1.0, -1.0)]
+        reached = values(beside)[rows, each]
+        most = []
+        for row, sampled in enumerate(found):
+            sizes = np.concatenate([sampled, reached[rows == row], *(end[row] for end in ends)])
+            places = np.concatenate([turn.angles, beside[rows == row], turn.dead, turn.dead])
+            best = int(np.argmax(sizes))
+            most.append((float(sizes[best]), float(places[best])))
+        return most
 
     def _notes(self) -> None:
         page = self.page
