@@ -480,8 +480,8 @@ class ForcePage:
         page.add("mean_balancing_moment", float(smooth.mean() + work / (2 * math.pi)))
 
     def _most(self, fine: Loaded, turn: Turn, pairs: list[str]) -> list[tuple[float, float]]:
-        """The greatest over the turn, and where, rad: of reactions in joints, N, of the balancing moment, N mm, and of it
-        with the other sign.
+        """The greatest over the turn, and where, rad: of reactions in joints, N, of the balancing moment, N mm, and of
+        that with the other sign.
 
         At a dead point the resistance turns round, and a reaction jumps: there both ends of the jump count.
         """
