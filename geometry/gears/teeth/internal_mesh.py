@@ -66,6 +66,9 @@ class InternalMesh(Record):
     def _crossing_angles(self) -> tuple[float | None, float | None]:
         """Polar angles about both axes, from the line of centres, at which the tip circles cross."""
         (one, two), a = self.tip_radii, self.distance
+        if one * two * a == 0:
+            # a point crosses no circle, nor do circles about one axis
+            return None, None
         cosines = (two * two - one * one - a * a) / (2 * a * one), (a * a + two * two - one * one) / (2 * a * two)
         if not all(-1 < c < 1 for c in cosines):
             return None, None

@@ -186,7 +186,8 @@ def contact_under(thread: Thread, teeth: WormTeeth, errors: AxisErrors, toleranc
         found = [_side(thread, teeth, replace(errors, axial=way * errors.axial), way * slid, way * off)
                  for way in (1.0, -1.0)]  # fmt: skip
         gaps, points = np.stack([gap for gap, _ in found]), np.stack([at for _, at in found])
-        ahead = float(gaps[1].min() - gaps[0].min())
+        # of Python's numbers two that are infinite differ by nan in silence
+        ahead = float(gaps[1].min()) - float(gaps[0].min())
         # what stands in the worm's core comes no nearer to its middle by a turn
         if not min(abs(ahead), abs(ahead - before)) > _MIDDLE * worm.module or not math.isfinite(ahead):
             break

@@ -61,6 +61,8 @@ class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
         return TwoDisk(arms=self.lengths, teeth=self.pair_teeth, worm_ratios=self.worm_ratios)
 
 
+# all but a whole turn has less
+_Bulge = Annotated[float, Meta(ge=-1e6, le=1e6)]
 _PATH = Meta(description="a DXF file of lines, arcs and polylines, or pieces x1, y1, x2, y2, bulge")
 
 
@@ -69,7 +71,7 @@ class PowerTableKeys(TwoDiskKeys, kw_only=True):
 
     x: Annotated[_Place | list[_Place], mm("x of a point, or of several")] | None = None
     y: Annotated[_Place | list[_Place], mm("y of a point, or of several")] | None = None
-    path: Annotated[list[tuple[_Place, _Place, _Place, _Place, float]], _PATH] | None = None
+    path: Annotated[list[tuple[_Place, _Place, _Place, _Place, _Bulge]], _PATH] | None = None
     tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = 0.01
     elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] | None = None
     picture: Annotated[str, Meta(description="SVG file of the scheme to write")] | None = None

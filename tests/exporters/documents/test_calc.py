@@ -597,6 +597,8 @@ def refused(topic: str, *arguments: str) -> SceneError:
             None,
         ),
         (("gear-pair", "practicum_pair", "mate=2"), "mate", "no_such_pair", 1),
+        # before: a traceback
+        (("power-table", "path=[[30,20,60,20,1e300]]"), "power-table.path[1][5]", "not_allowed", None),
         # q is at most 1000; before: no whole outline, in English whatever the language
         (("worm", "module=2", "lead_angle_deg=0.01"), "worm.lead_angle_deg", "out_of_range", 0.0573),
         (("shift-choice", "first.number_of_teeth=13"), "shift-choice.second", "missing_key", None),
@@ -668,6 +670,21 @@ def test_a_helical_pair_is_refused_in_the_normal_terms_that_were_typed() -> None
     assert least <= told.nearest.value < least + 2e-4
     other = refused(*pair.split(), "first.pressure_angle_deg=25")
     assert (other.key, other.value, other.nearest) == ("gear-pair.second.pressure_angle_deg", 20.0, Nearest(25.0))
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    "asked",
+    [
+        # tips on the axis; before: a traceback
+        "shift-choice first.number_of_teeth=18 second.kind=ring_gear second.number_of_teeth=63 "
+        "first.profile_shift_coefficient=-10",
+        # a wheel beside its worm; before: a warning of NumPy
+        "worm module=5 number_of_teeth=40 wheel_axial_error=-100",
+    ],
+)
+def test_what_touches_nothing_is_told_without_a_traceback_or_a_warning(asked: str) -> None:
+    values_of(asked)
 
 
 def test_what_is_offered_for_an_element_of_a_list_has_been_tried() -> None:
