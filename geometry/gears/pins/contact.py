@@ -29,6 +29,8 @@ _LEAST_ANGLES = 4
 _ACCURACY = 1e-13
 # rounds of finer drive angles beside the greatest gaps, and how many in a round beside each
 _ROUNDS, _NEAR = 10, 9
+# steps to where a turned body stops; levers below this part of a pin's distance from its axis are none
+_STEPS, _SLIDES = 8, 1e-6
 
 
 class PinMotion(Protocol):
@@ -91,7 +93,10 @@ class _Gap:
 
     def __call__(self, phase: Real) -> tuple[Real, Real, Indices, Complex]:
         """Gap and its rate, the outline's curve, and the outward normal in the body's frame."""
-        points, rates = self.motion.centre(phase)
+        return self.at(*self.motion.centre(phase))
+
+    def at(self, points: Complex, rates: Complex) -> tuple[Real, Real, Indices, Complex]:
+        """The same of pins at points of the body's frame that move there at rates."""
         turn = np.exp(-1j * self.pitch * np.round(np.angle(points) / self.pitch))
         points, rates = points * turn, rates * turn
         upper = points.imag > 0
@@ -170,17 +175,23 @@ def _worst(gap: _Gap, phases: Real, values: Real, others: tuple[ContactPlace, ..
 def lost_motion(side: ToothSide, motion: PinMotion) -> float:
     """How far the body turns from one stop to the other while the drive stands still, rad: the most over its angles.
 
-    To the first order in the gaps: a pin's gap over its lever, which is how fast turning the body closes it.
+    To each stop by Newton's steps: the least that one of the pins leaves, its gap over how fast turning closes it.
     """
     phases, _ = pin_gaps(side, motion)
-    gaps, _, _, normal = _Gap(side, motion)(phases)
-    centres, _ = motion.centre(phases)
-    lever = (np.conj(normal) * -1j * centres).real
-    with np.errstate(divide="ignore", invalid="ignore"):
-        turns = np.maximum(gaps, 0.0) / np.abs(lever)
-    table = np.stack([np.where(lever < 0, turns, np.inf), np.where(lever > 0, turns, np.inf)])
-    stops = table.reshape(2, motion.number_of_pins, -1).min(axis=1)
-    return float(stops.sum(axis=0).max())
+    gap, (centres, _) = _Gap(side, motion), motion.centre(phases)
+    drives = len(phases) // motion.number_of_pins
+    between: Real = np.zeros(drives)
+    for way in (1, -1):
+        turn: Real = np.zeros(drives)
+        for _ in range(_STEPS):
+            seen = centres * np.exp(-1j * way * np.tile(turn, motion.number_of_pins))
+            gaps, opening, *_ = gap.at(seen, -1j * way * seen)
+            # a pin past which the body slides stops nothing
+            stops = opening < -_SLIDES * np.abs(seen)
+            left = np.where(stops, gaps, np.inf) / np.where(stops, -opening, 1.0)
+            turn += left.reshape(motion.number_of_pins, drives).min(axis=0)
+        between += np.maximum(turn, 0.0)
+    return float(between.max())
 
 
 def pins_in_contact(side: ToothSide, motion: PinMotion) -> int:
