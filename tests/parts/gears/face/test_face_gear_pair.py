@@ -350,3 +350,13 @@ def test_how_far_crowned_flanks_stay_off_is_told_of_a_narrower_pinion_too(
     ends = [abs(lines(middle + way * width / 2) - lines(values["contact_plane"])) for way in (-1, 1)]
     assert told == pytest.approx(max(ends), rel=0.05)
     assert told < values["end_gap"] / 2
+
+
+def test_the_shaper_of_a_face_gear_has_the_corner_that_its_key_tells_where_none_is_given() -> None:
+    """0.2 of a module, in what `new` prints too; the undercut goes by it."""
+
+    def undercut(**more: float) -> float:
+        file = scene_from_dict({"parts": {"p": GEAR | more}}, "s", "s")
+        return float(make_parts(file, "s")[0]["p"].circles["undercut_diameter"])
+
+    assert undercut() == undercut(tip_radius_coefficient=0.2) > undercut(tip_radius_coefficient=0.201)
