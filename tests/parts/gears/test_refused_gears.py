@@ -154,3 +154,18 @@ def test_of_a_thread_that_a_small_wheel_grinds_it_is_told_where_its_flank_begins
     assert found is not None
     assert found.side == "at_least"
     assert refusal({**worm, "form": "ZK1", "grinding_wheel_diameter": 12.0, "diameter_quotient": found.value}) is None
+
+
+def test_a_chamfered_face_has_room_for_digits_as_one_that_ends_where_its_chamfers_begin() -> None:
+    """0.4 mm less at the bore and at the root, where the rack's clearance of 0.25 + 0.2 modules makes as much."""
+    mark = {"tooth_mark": {"depth": 0.4, "height": 20.0}}
+    chamfered = {"bore_diameter": 10.0, "face_chamfer": {"above": 0.4}}
+    narrow = {"bore_diameter": 10.8, "basic_rack": {"tip_clearance_coefficient": 0.45}}
+    most = []
+    for keys in (chamfered, narrow):
+        refused = refusal({**SPUR, **keys, **mark})
+        assert refused is not None
+        assert (refused.key, refused.code) == ("parts.p.tooth_mark.height", "no_room_for_digits")
+        assert refused.nearest is not None
+        most.append(refused.nearest.value)
+    assert most[0] == pytest.approx(most[1], rel=1e-9)
