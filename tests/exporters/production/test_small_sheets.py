@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
+import re
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -262,3 +263,15 @@ def test_a_mesh_without_its_lines_is_told(file: Path, tmp_path: Path) -> None:
         write_sheets(other, [canvas], "Sheet")
         failures = verify_sheets(other, [replace(one, canvas=canvas)], TOLERANCE).failures
         assert failures == ("the line of action, its active part, the arc of action or the pitch is missing",)
+
+
+@pytest.mark.parametrize("turn", ["rotate(45 120 60)", "rotate(-90)", "scale(2)"])
+def test_words_that_are_turned_in_no_known_way_are_refused(turn: str, tmp_path: Path) -> None:
+    """Upright, rising or upside down about their own place: a reader of files knows no other."""
+    file = tmp_path / "s.svg"
+    write_sheets(file, [expected().canvas], "Sheet")
+    text = file.read_text(encoding="utf-8")
+    (rising,) = re.findall(r'transform="(rotate\(-90 [^"]*)"', text)
+    file.write_text(text.replace(rising, turn), encoding="utf-8")
+    (found,) = verify_sheets(file, [expected()], TOLERANCE).failures
+    assert f"words that are turned by {turn}" in found

@@ -318,3 +318,10 @@ def test_random_worms_are_closed_and_within_their_bounds_as_step_and_stl(seed: i
         verify_faced_mesh(read_stl(file), body, chords[0].max_error + 1e-5 * module * quotient, 0.02 * module).failures
         == ()
     )
+
+
+def test_a_worm_is_measured_over_the_balls_of_its_standard() -> None:
+    """GOST 19650: 1.67 modules."""
+    for module in (2.0, 5.0):
+        scene = scene_from_dict({"parts": {"p": WORM | {"module": module}}}, "s", "s")
+        assert make_parts(scene, "s")[0]["p"].quantities["ball_diameter"] == pytest.approx(1.67 * module, rel=1e-12)
