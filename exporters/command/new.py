@@ -25,8 +25,8 @@ from parts.recipes.registry import RECIPES
 from parts.scene.files import built_in_scenes
 from parts.scene.load import ExportSpec, SceneInfo, plain_tables
 
-# parts of the scene: of the kind that is shown, the one that it is made from, any other one
-_OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
+# parts of the scene: a spur gear, the part that another is made from, a second one of a kind; others by their kind
+_GEAR, _SOURCE, _OTHER = "gear", "source", "wheel"
 _SCHEMA = "higherpair.schema.json"
 _NEW = "higherpair new "
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
@@ -85,7 +85,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
     lines = [
         *_head(told),
         *owner,
-        f"[parts.{_OWN}]",
+        f"[parts.{_called(kind)}]",
         f'kind = "{kind}"',
         *_keys(own_first(KINDS[kind].keys), told, {"of": _SOURCE}),
         "",
@@ -155,7 +155,7 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
         *whole,
         "[[mates]]",
         f'kind = "{kind}"',
-        *_keys(fields_of(keys), told, {"first": _OWN, "second": _OTHER}),
+        *_keys(fields_of(keys), told, dict(zip(("first", "second"), _called_both(kind), strict=True))),
     ]
     return "\n".join(lines) + "\n"
 
@@ -173,7 +173,7 @@ def new_table(place: str, language: str = ENGLISH) -> str | None:
         fields = [f for table in tables for f in fields_of(table) if f.encode_name == name]
         tables = list(dict.fromkeys(one for f in fields for one in structs_of(f.type)))
         is_list = any(not tables_of(f) for f in fields)
-    head = {**dict.fromkeys(KINDS, f"parts.{_OWN}"), **dict.fromkeys(MATES, "mates"), "exports": "exports"}
+    head = {**{one: f"parts.{_called(one)}" for one in KINDS}, **dict.fromkeys(MATES, "mates"), "exports": "exports"}
     there = ".".join([head.get(kind, "assemblies"), *names])
     lines = [f"# {told.text('Lengths in mm, angles in degrees.')}"]
     for table in tables:
@@ -317,9 +317,11 @@ def _table(table: type[Struct]) -> str:
 def _several(kind: str, told: Words) -> list[str]:
     """Commented lines for more parts: the first kind of mate that joins this one, a sheet where one applies."""
     mate, places = _mate_of(kind)
-    other = _OTHER if KINDS[kind].made_from is None else _SOURCE
     # of two equal kinds the part above is the first
     own = 0 if places is None else places.index(kind)
+    other = _OTHER if places is None else _beside(_called(kind), _called(places[1 - own]))
+    if KINDS[kind].made_from is not None:
+        other = _SOURCE
     part = f"[parts.{other}]"
     if places is not None:
         part = told.text('{part} of kind "{kind}"', part=part, kind=places[1 - own])
@@ -344,13 +346,29 @@ def _several(kind: str, told: Words) -> list[str]:
         other=other,
         mate=mate,
         summary=f"{' ' * max(1, 34 - len(mate))}# {told.text('see {command}', command=f'higherpair new {mate}')}",
-        first=(_OWN, other)[own],
-        second=(other, _OWN)[own],
+        first=(_called(kind), other)[own],
+        second=(other, _called(kind))[own],
         direction="" if turned is None else f"\n## direction_deg = {turned}",
         pad=" " * max(1, 24 - len(other)),
         transmission=f"\n## transmission_error = true                  # {uneven}" if toothed else "",
         only=only,
     ).splitlines()
+
+
+def _called(kind: str) -> str:
+    """The id of a part of a kind."""
+    return _GEAR if kind == "spur_gear" else kind
+
+
+def _beside(name: str, other: str) -> str:
+    """That of another part beside one."""
+    return _OTHER if other == name else other
+
+
+def _called_both(mate: str) -> tuple[str, str]:
+    """Those of the parts that a kind of mate joins."""
+    first, second = map(_called, (MATES[mate].joins or (("spur_gear", "spur_gear"),))[0])
+    return first, _beside(first, second)
 
 
 def _mate_of(kind: str) -> tuple[str, tuple[str, str] | None]:

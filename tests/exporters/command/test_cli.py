@@ -426,7 +426,8 @@ def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: py
     told = tomllib.loads("\n".join(line[3:] for line in text.splitlines() if line.startswith("## ")))
     mate, partner = told["mates"][0], re.search(r'second part, \[parts\.(\w+)\](?: of kind "(\w+)")?', text)
     joined = MATES[mate["kind"]].joins
-    kinds = {"gear": kind, partner[1]: partner[2]}
+    (own,) = (name for name, part in tomllib.loads(text)["parts"].items() if part["kind"] == kind)
+    kinds = {own: kind, partner[1]: partner[2]}
     assert joined is None or (kinds[mate["first"]], kinds[mate["second"]]) in joined
     assert ("transmission_error" in text) is mate["kind"].endswith(
         ("external_gear_pair", "internal_gear_pair", "rack_pair")
@@ -444,8 +445,8 @@ def test_a_new_scene_with_its_second_part_and_without_both_marks_stands(
     assert partner is not None
     text = re.sub("^## ?", "", text, flags=re.MULTILINE)
     if f"[parts.{partner[1]}]" not in text.replace(partner[0], ""):
-        other = new_scene(capsys, partner[2]).partition("[parts.gear]")[2].partition("[[exports]]")[0]
-        text += f"[parts.{partner[1]}]{other}".replace('of = "source"', 'of = "gear"')
+        other = new_scene(capsys, partner[2]).partition("[[exports]]")[0].rpartition("[parts.")[2].partition("]")[2]
+        text += f"[parts.{partner[1]}]{other}".replace('of = "source"', f'of = "{kind}"')
     (tmp_path / "s.toml").write_text(text, encoding="utf-8")
     assert run("check", tmp_path / "s.toml") == 0
 

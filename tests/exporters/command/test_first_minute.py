@@ -83,7 +83,7 @@ def test_new_tells_every_key_of_a_table_and_each_bore_that_it_shows_is_made(
     deep = said(capsys, "new", "layered.layers.outlines")
     assert deep.isascii()
     assert re.search(r"^# count = 1 +# how often", deep, re.MULTILINE)
-    assert "[[parts.gear.layers.outlines]]" in deep
+    assert "[[parts.layered.layers.outlines]]" in deep
     assert "\n# checked = " in said(capsys, "new", "exports.title_block")
 
 

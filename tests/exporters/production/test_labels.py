@@ -200,7 +200,9 @@ def test_a_value_stays_with_its_letter(tmp_path: Path) -> None:
 @pytest.mark.heavy
 @pytest.mark.parametrize("kind", ALONE)
 def test_a_name_finds_room_on_every_kind(kind: str) -> None:
-    part = make_parts(scene_from_toml(new_scene(kind).encode(), kind, kind), kind)[0]["gear"]
+    part = make_parts(scene_from_toml(new_scene(kind).encode(), kind, kind), kind)[0][
+        "gear" if kind == "spur_gear" else kind
+    ]
     region = part.cut(0.0, gap=2.0).region
 
     def ring(profile: Profile) -> shapely.Polygon:

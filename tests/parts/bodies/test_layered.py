@@ -64,7 +64,7 @@ def shown(number: int) -> Part:
     text = new_scene("layered")
     rows = re.findall(r"^# (layers = .*?)  # \.\.\. or this", text, re.MULTILINE)
     used = re.sub(r"^layers = .*$", rows[number], text, flags=re.MULTILINE)
-    return make_parts(scene_from_toml(used.encode(), "t", "t"), "t")[0]["gear"]
+    return make_parts(scene_from_toml(used.encode(), "t", "t"), "t")[0]["layered"]
 
 
 def test_the_hand_that_new_shows_is_a_flat_part_of_lines_and_arcs() -> None:

@@ -292,7 +292,7 @@ def shown(kind: str, key: str) -> tuple[str, float, float]:
     text = new_scene(kind)
     (row,) = re.findall(rf"^# ({key} = .*?)  # \.\.\. or this", text, re.MULTILINE)
     scene = scene_from_toml(re.sub(rf"^{key} = .*$", row, text, flags=re.MULTILINE).encode(), "t", "t")
-    mesh = make_parts(scene, "t")[0]["gear"].to_trimesh(0.005)
+    mesh = make_parts(scene, "t")[0][kind].to_trimesh(0.005)
     assert mesh.is_watertight
     return row, mesh.volume, mesh.bounds[1][2]
 

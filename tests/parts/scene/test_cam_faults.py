@@ -162,7 +162,7 @@ def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
         used = re.sub(r"^phases = .*$", line.replace("\\", r"\\"), text, flags=re.MULTILINE)
         parts, _ = make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
         assert line in used
-        assert parts["gear"].quantities
+        assert parts[kind].quantities
 
 
 def test_every_bore_that_new_shows_fits_a_roller() -> None:
