@@ -706,6 +706,7 @@ def _page(text: str, options: argparse.Namespace) -> None:
 
         _check_free(options)
         write_whole(options.out, text)
+        print(words(_language(options)).text("written: {file}", file=options.out))
 
 
 def _check_free(options: argparse.Namespace) -> None:

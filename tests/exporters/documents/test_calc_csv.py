@@ -96,6 +96,7 @@ def test_json_has_the_same_columns_and_pages_have_those_that_they_had(
 ) -> None:
     """Polar coordinates and paths are data for a machine; a reader of the page has no more columns than before."""
     rows = tables_of(tmp_path / "a.csv", *CAM, "step=30")[0]
+    assert capsys.readouterr().out == f"written: {tmp_path / 'a.csv'}\n"
     assert main(["calc", "cam", *CAM, "step=30", "--format", "json"]) == 0
     data = json.loads(capsys.readouterr().out)["positions"]
     for head, values in rows.items():
