@@ -32,6 +32,18 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, **how: Any) -> None:
         super().__init__(formatter_class=_Help, **how)
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """A word that is none of the choices: with the one that was meant, as later versions of Python have it."""
+        from parts.base.refusal import meant
+
+        closest = None if action.choices is None or value in action.choices else meant(value, list(action.choices))
+        if action.choices is None or closest is None:
+            super()._check_value(action, value)
+            return
+        text = self.words.text("invalid choice: %(value)r, maybe you meant %(closest)r? (choose from %(choices)s)")
+        told = {"value": value, "closest": closest.value, "choices": ", ".join(map(repr, action.choices))}
+        raise argparse.ArgumentError(action, text % told)
+
     def error(self, message: str) -> NoReturn:
         """One line, and where there is more."""
         _refuse(self.words, message, self.prog)

@@ -83,7 +83,9 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
         # among many words some have half of its letters by chance, and so has one of two letters that ends in one
         least = 0.6 if len(known) > _LONG else 0.5
         near = [name for name in known if len(plain) > 2 or name[:1] == plain[:1] or sorted(name) == sorted(plain)]
-        match = [] if word is None else difflib.get_close_matches(word, near, 1, least)
+        # letters in another order are a slip of the fingers
+        swapped = [name for name in near if sorted(name) == sorted(plain)]
+        match = [] if word is None else swapped[:1] or difflib.get_close_matches(word, near, 1, least)
     if not match and word is not None:
         match = [name for name in known if name.lower() == word.lower()]
     return Nearest(match[0], "meant") if match else None

@@ -397,3 +397,25 @@ def test_a_plate_is_shown_with_what_it_is_fixed_to() -> None:
     shown = new_scene("plate")
     assert '## kind = "fixed"' in shown
     assert "linkage" not in shown
+
+
+@pytest.mark.parametrize(("command", "closest"), [("bulid", "build"), ("chek", "check"), ("catalog", "catalogue")])
+def test_a_slip_in_a_command_is_answered_with_the_one_that_was_meant(
+    command: str, closest: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(command, "practicum_pair") == 2
+    told = capsys.readouterr().err
+    assert f"'{command}', maybe you meant '{closest}'?" in told
+    assert told.count("\n") == 1
+    assert run("flurb", "practicum_pair") == 2
+    assert "maybe" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("word", ["dfx", "slt", "svgg", "setp"])
+def test_a_slip_in_a_format_is_answered_with_the_one_of_its_letters(
+    word: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Two letters in the wrong order are nearer than another word of most of them: dfx was answered with pdf."""
+    assert run("build", "practicum_pair", "--format", word, "--out", tmp_path) == 2
+    wanted = {"dfx": "dxf", "slt": "stl", "svgg": "svg", "setp": "step"}[word]
+    assert f"did you mean {wanted}?" in capsys.readouterr().err
