@@ -10,16 +10,19 @@ from itertools import pairwise
 
 import numpy as np
 
+from geometry.base.record import replace
 from geometry.curves.curve import Complex, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import Box
-from parts.drawing.working import VISIBLE, Stroke
+from parts.drawing.working import VISIBLE, Stroke, View
 
 Loop = Sequence[Line | Arc]
 # parts of the size: how far beside an edge is looked, what is one place
 _BESIDE, _SAME = 1e-7, 1e-6
 _SAMPLES = 129
 _SMOOTH = 1e-6
+# mm within which edges lie in one plane
+_HERE = 1e-9
 
 
 def closed(points: Sequence[complex], least: float = 1e-9) -> tuple[Line, ...]:
@@ -41,6 +44,21 @@ def below(loop: Loop) -> tuple[Line | Arc, ...]:
 def outlined(loop: Loop) -> list[Stroke]:
     """The lines of a section, without what lies on the axis."""
     return [(VISIBLE, curve) for curve in loop if not (start_point(curve).imag == end_point(curve).imag == 0)]
+
+
+def joined(view: View, *places: float) -> View:
+    """A section of bodies that touch in planes across the axis and are of one piece: no edge is where both have one."""
+    strokes = [*view.strokes]
+    for x in places:
+        edges = [
+            s for s in strokes if isinstance(s[1], Line) and abs(s[1].start.real - x) + abs(s[1].end.real - x) < _HERE
+        ]
+        spans = [sorted((start_point(curve).imag, end_point(curve).imag)) for _, curve in edges]
+        heights = sorted({round(y, 9) for span in spans for y in span})
+        pieces = [(a, b) for a, b in pairwise(heights) if sum(low < (a + b) / 2 < high for low, high in spans) % 2]
+        strokes = [stroke for stroke in strokes if stroke not in edges]
+        strokes += [(VISIBLE, Line(complex(x, a), complex(x, b))) for a, b in _without(pieces, (), _HERE)]
+    return replace(view, strokes=tuple(strokes))
 
 
 def seen_edges(loop: Loop, *, cut: bool) -> list[Line]:

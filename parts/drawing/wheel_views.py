@@ -487,6 +487,11 @@ def bore_note(ends: tuple[float, float], wall: float, words: str) -> Note:
     return Note(complex(high, wall), words, is_rough=True, also=(inside, (complex(low, wall), 0j)))
 
 
+def goes_on(section: View, length: float) -> View:
+    """A section whose bore goes on beyond its upper face: what stood at the bore's end stands so much farther, mm."""
+    return replace(section, notes=tuple(replace(note, at=note.at + length) for note in section.notes))
+
+
 def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[Stroke]:
     """``count`` teeth about the upward direction of a profile that is turned, as they are; the tip circle elsewhere."""
     step = outline.pitch_angle

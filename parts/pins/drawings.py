@@ -14,11 +14,12 @@ from geometry.solids.pin_ring import PinRing
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.revolved import below, block, outlined
+from parts.drawing.revolved import below, block, joined, outlined
 from parts.drawing.wheel_views import (
     Wheel,
     axis_cross,
     circle_of,
+    goes_on,
     hole_round,
     ring_face,
     ring_section,
@@ -89,9 +90,10 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
         Size("pin_length", complex(thick, -circle - radius), complex(end, -circle - radius), "below"),
         Size("pin_circle_diameter", complex(end, -circle), complex(end, circle), "right", "Ø"),
     ]
-    strokes, hatched, length = list[Stroke](), list(pins), end
+    strokes, hatched, length, faces = list[Stroke](), list(pins), end, [thick]
     if isinstance(subject.part.keys, LanternWheelSpec):
-        other, length = Placement2(0.0, complex(end)), end + thick
+        other, length, faces = Placement2(0.0, complex(end)), end + thick, [thick, end]
+        section = goes_on(section, end)
         strokes += [(layer, curve.placed(other)) for layer, curve in section.strokes]
         hatched += [tuple(curve.placed(other) for curve in loop) for loop in section.hatched]
         sizes.append(Size("width", -1j * outer, complex(length, -outer), "below"))
@@ -100,7 +102,7 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
     axes = [Line(complex(0.0, way * circle), complex(length, way * circle)) for way in (1, -1)]
     runs = _runs(thick + made.length / 2, circle + radius, subject)
     section = replace(section, axes=longer).plus(strokes, hatched, axes, sizes, notes=[runs])
-    return section, _with_pins(face, made, subject), *others
+    return joined(section, *faces), _with_pins(face, made, subject), *others
 
 
 def _with_pins(face: View, made: PinPlate, subject: Subject) -> View:

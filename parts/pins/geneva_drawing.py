@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 
+from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pins.geneva import GenevaWheel
@@ -13,11 +14,20 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.revolved import below, block
-from parts.drawing.wheel_views import Wheel, circle_of, ring_face, ring_section, wheel_views
+from parts.drawing.revolved import below, block, joined, outlined
+from parts.drawing.wheel_views import (
+    Wheel,
+    circle_of,
+    goes_on,
+    ring_face,
+    ring_section,
+    section_view,
+    wheel_views,
+)
 from parts.drawing.working import (
     AXIS,
     VISIBLE,
+    Note,
     PartDrawing,
     Round,
     Size,
@@ -126,29 +136,39 @@ def _crank(driver: GenevaDriver, subject: Subject) -> PartDrawing:
         told = f"{sheet_words(subject.language, 'pins_of', count=count) if count > 1 else ''}Ø"
         one = Round("pin_diameter", complex(crank), driver.pin_radius, told, angles=(45.0, -45.0))
         size = Size("crank_radius", 0j, complex(crank), "below")
-        section = _with_disc(section, driver)
+        section = _with_disc(section, driver, subject)
         face = _with_reliefs(face.plus(pins, sizes=[size], rounds=[one]), driver)
     words = requirements(subject, *directions(holes, subject, "zero_pin"))
     return PartDrawing((section, face, *others), words)
 
 
-def _with_disc(section: View, driver: GenevaDriver) -> View:
-    """The section of the plate with what stands on it: above the axis through pin 1."""
+def _with_disc(section: View, driver: GenevaDriver, subject: Subject) -> View:
+    """The section of the plate with what is of one piece with it: above the axis through pin 1."""
     disc, low = driver.disc, driver.plate_thickness
     ends = low + driver.width, low + driver.pin_length
     crank, pin = disc.drive.crank_radius, driver.pin_radius
-    core = driver.holes.bore_reach if driver.has_bored_disc else 0.0
     radius, apex = disc.wheel.locking_radius, disc.apex
+    upright, even = Placement2(0.0, complex(low)), disc.number_of_pins % 2 == 0
     pins = [block(low, ends[1], crank - pin, crank + pin)]
     # across of pin 1 stands another one where their number is even
-    upper = [block(low, ends[0], core, apex)] if apex > 0 else []
-    lower = [block(low, ends[0], core, radius)] if apex > 0 else [block(low, ends[0], -apex, radius)]
-    if disc.number_of_pins % 2 == 0:
-        lower = [*upper, *pins]
-    bars = [*upper, *pins, *(below(bar) for bar in lower)]
-    strokes = [(VISIBLE, line) for bar in bars for line in bar]
+    pins += [below(pins[0])] * even
+    if driver.has_bored_disc:
+        bored = HubHoles(driver.holes.bore)
+        on_it = section_view(
+            Wheel(WheelShape(driver.width), bored, (apex, apex if even else radius), None, stands=False), subject
+        )
+        strokes = [(layer, curve.placed(upright)) for layer, curve in on_it.strokes]
+        hatched = [tuple(curve.placed(upright) for curve in loop) for loop in on_it.hatched]
+        section = goes_on(section, driver.width)
+    else:
+        hatched = [] if even else [below(block(low, ends[0], -apex, radius))]
+        strokes = [stroke for loop in hatched for stroke in outlined(loop)]
+    strokes += [(VISIBLE, line) for loop in pins for line in loop]
     sizes = [Size("disc_height", complex(0.0, -radius), complex(ends[0], -radius), "below")]
     if ends[0] != ends[1]:
         sizes.append(Size("pin_height", complex(0.0, crank + pin), complex(ends[1], crank + pin), "above"))
     axes = Line(complex(0.0, crank), complex(ends[1], crank)), Line(0j, complex(max(ends)))
-    return section.plus(strokes, bars, axes, sizes)
+    rough = subject.rough(subject.wishes.flank_roughness)
+    runs = [Note(complex(low + driver.pin_length / 2, crank + pin), rough, is_rough=True, free=1j)]
+    runs.append(Note(complex(low + driver.width / 2, -(apex if even else radius)), rough, is_rough=True, free=-1j))
+    return joined(section.plus(strokes, [*hatched, *pins], axes, sizes, notes=runs), low)

@@ -257,3 +257,57 @@ def test_the_section_of_a_pulley_with_one_flange_reaches_its_diameter_there_alon
     high = ends.real[np.abs(ends.imag) > outer / 2 + 1e-6]
     assert set(np.round(high, 9)) == ({0.0, 1.5} if below else {10.0, 11.5})
     assert next(note.at.imag for note in view.notes if note.is_rough) == pytest.approx(outer / 2)
+
+
+CROSS = {"kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 120.0}
+DRIVER = {"kind": "geneva_driver", "of": "cross", "plate_thickness": 3.0, "face_width": 10.0, "pin_length": 8.0,
+          "plate_diameter": 130.0, "bore_diameter": 20.0}  # fmt: skip
+LANTERN = {"kind": "lantern_wheel", "number_of_pins": 12, "pin_circle_diameter": 80.0, "pin_diameter": 8.0,
+           "face_width": 14.0, "plate_thickness": 3.0, "outer_diameter": 96.0, "bore_diameter": 20.0}  # fmt: skip
+OUTPUT = {"kind": "output_plate", "number_of_pins": 6, "pin_circle_diameter": 60.0, "pin_diameter": 8.0,
+          "pin_length": 10.0, "face_width": 5.0, "outer_diameter": 76.0, "bore_diameter": 14.0}  # fmt: skip
+# of each its bore's end and radius, then what material the section has: z from and to, y from and to; the pin of a
+# crank of 120 sin 30 degrees has an eighth of that; the locking disc reaches 48.75 and on the side of the pin 14.88
+ONE_PIECE: dict[str, tuple[dict[str, Any], complex, list[tuple[float, float, float, float]]]] = {
+    "lantern": (LANTERN, 20 - 10j,
+                [(z, z + 3, *y) for z in (0, 17) for y in ((10, 48), (-48, -10))]
+                + [(3, 17, 36, 44), (3, 17, -44, -36)]),
+    "output plate": (OUTPUT, 5 - 7j,
+                     [(0, 5, 7, 38), (0, 5, -38, -7), (5, 15, 26, 34), (5, 15, -34, -26)]),
+    "one pin": (DRIVER, 13 - 10j,
+                [(0, 3, 10, 65), (0, 3, -65, -10), (3, 11, 56.25, 63.75), (3, 13, 10, 14.88), (3, 13, -48.75, -10)]),
+    "two pins": (DRIVER | {"number_of_pins": 2}, 13 - 10j,
+                 [(*z, *sorted(way * y for y in ys)) for way in (1, -1)
+                  for z, ys in (((0, 3), (10, 65)), ((3, 11), (56.25, 63.75)), ((3, 13), (10, 14.88)))]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ONE_PIECE)
+def test_what_is_of_one_piece_has_no_edge_within_its_section(name: str) -> None:
+    """Lines stand where material ends, or before none; there was one at each face on which a disc or a pin stands, and
+    the sign of the bore stood at the plate's face, within the disc.
+    """
+    keys, end, material = ONE_PIECE[name]
+    cross = {"cross": CROSS} if "of" in keys else {}
+    scene = scene_from_dict({"parts": {**cross, "p": keys}, "exports": [{"format": "svg"}]}, "t", "t")
+    part = make_parts(scene, "t")[0]["p"]
+    view = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, WorkingTable(), "en")).views[0]
+
+    def inside(at: complex) -> bool:
+        return any(a < at.real < b and c < at.imag < d for a, b, c, d in material)
+
+    lines = [curve for layer, curve in view.strokes if layer == VISIBLE and isinstance(curve, Line)]
+    for line in lines:
+        way = (line.end - line.start) / abs(line.end - line.start)
+        for share in np.linspace(0.01, 0.99, 99):
+            at = line.start + share * (line.end - line.start)
+            assert not (inside(at + 0.02j * way) and inside(at - 0.02j * way)), (line, at)
+    # whatever ends is outlined, and the mouths of the bore are seen
+    for z, y in [(z, y) for a, b, c, d in material for z in (a, b) for y in np.linspace(c, d, 41)[1:-1]]:
+        if inside(complex(z - 0.02, y)) != inside(complex(z + 0.02, y)):
+            assert any(abs(one.start.real - z) + abs(one.end.real - z) < 1e-9
+                       and (one.start.imag - y) * (one.end.imag - y) <= 0 for one in lines), (z, y)  # fmt: skip
+    mouths = {one.start.real for one in lines if one.start.real == one.end.real and one.start.imag * one.end.imag <= 0}
+    assert mouths == ({0.0, 3.0, 17.0, 20.0} if name == "lantern" else {0.0, end.real})
+    bore = next(note for note in view.notes if note.is_rough and not note.free)
+    assert bore.at == end
