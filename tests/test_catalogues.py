@@ -21,6 +21,7 @@ from babel.messages.catalog import Message
 
 from parts.base.psv import rows_of
 from parts.base.texts import LOCALE, words
+from parts.texts import checks
 from tests import catalogues
 from tests.catalogues import HOUSE, catalogue_files, compiled, extracted, names_typed, read, untranslated, updated
 from tests.test_architecture import product_files
@@ -260,6 +261,16 @@ def test_the_reference_diameter_has_one_name_in_ukrainian() -> None:
     named = [str(m.string) for m in texts_of(file) if str(m.id).startswith("reference diameter")]
     assert len(named) > 4
     assert {" ".join(text.split()[:2]) for text in named} == {"ділильний діаметр"}
+
+
+def test_what_is_told_of_several_at_once_has_no_verb_of_one_in_ukrainian() -> None:
+    """``Кривошип 1 ... Кривошип 3 повертається`` was told of three: a row of instances is told as one is."""
+    (file,) = (f for f in catalogue_files() if f.parts[-3] == "uk")
+    told = {str(m.id): str(m.string) for m in texts_of(file) if not m.pluralizable}
+    rows = [told[checks.MATES[kind]] for kind in ("fixed", "coaxial", "carried", "parallel", "pin_seat")]
+    assert [
+        text for text in rows if re.search(r"(?:ть|є)(?:ся)?\b.*\{second\}|\{second\} \w+(?:ть|є)(?:ся)?\b", text)
+    ] == []
 
 
 @FILES

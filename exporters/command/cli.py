@@ -489,13 +489,13 @@ def _catalogue(options: argparse.Namespace) -> int:
 
 def _refuse_one_folder(plans: Sequence[Plan]) -> None:
     """Two scenes of one name would be made in one folder."""
-    from parts.base.refusal import SceneError
+    from parts.base.refusal import SceneError, Typed
 
     first: dict[str, str] = {}
     for plan in plans:
         other = first.setdefault(plan.scene.name.lower(), plan.source)
         if other != plan.source:
-            raise SceneError("build", "SCENE", plan.source, "same_scene_name", None, other=other)
+            raise SceneError("build", Typed("SCENE"), plan.source, "same_scene_name", None, other=other)
 
 
 def _each(asked: Sequence[S], run: Callable[[S], T], language: Callable[[], str]) -> tuple[list[T], bool]:
@@ -660,7 +660,7 @@ def _new(options: argparse.Namespace) -> int:
         tables_of_kind,
     )
     from geometry.base.errors import Nearest
-    from parts.base.refusal import SceneError, meant
+    from parts.base.refusal import SceneError, Typed, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
     from parts.recipes.registry import RECIPES
@@ -683,9 +683,11 @@ def _new(options: argparse.Namespace) -> int:
                 near = meant(key, tables)
                 near = near and Nearest(f"{kind}.{near.value}", "meant")
                 shown = [f"{kind}.{name}" for name in tables]
-                raise SceneError("new", "KIND", options.kind, "unknown_table", near, known=shown)
+                raise SceneError("new", Typed("KIND"), options.kind, "unknown_table", near, known=shown)
             known = list(dict.fromkeys([*(kind for kinds, _ in makers for kind in kinds), *built_in]))
-            raise SceneError("new", "KIND", options.kind, "unknown_kind", meant(options.kind, known), known=known)
+            raise SceneError(
+                "new", Typed("KIND"), options.kind, "unknown_kind", meant(options.kind, known), known=known
+            )
         if options.kind not in scenes:
             # whatever is wrong with it is told first
             load_scene(options.kind)

@@ -123,13 +123,14 @@ def _sentences(head: str) -> list[str]:
 
 def _head(told: Words) -> list[str]:
     """What a scene to start from says first, and of itself."""
+    table = _NEW + told.term("command line", "KIND.KEY")
     return [
         # the directive by which an editor finds the schema, see Taplo
         f"#:schema {_SCHEMA}",
         f"# {told.text('A scene of higherpair: build it with  higherpair build THIS_FILE.toml')}",
         f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
         f"# {told.text('Lengths in mm, angles in degrees.')}",
-        f"# {told.text('What the keys of a table mean:  {command}', command=_NEW + 'KIND.KEY')}",
+        f"# {told.text('What the keys of a table mean:  {command}', command=table)}",
         f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
         "",
         "[scene]",

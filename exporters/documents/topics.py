@@ -17,7 +17,7 @@ from geometry.base.errors import Nearest, ParameterError
 from parts.base.kind import MOST_OFFERS
 from parts.base.psv import rows_of
 from parts.base.readback import ReadError
-from parts.base.refusal import SceneError, meant, placed
+from parts.base.refusal import SceneError, Typed, meant, placed
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, plain_numbers, steps_of
 from parts.base.texts import Words, languages
@@ -78,7 +78,9 @@ def _home(topic: str) -> str:
     home = TOPICS[topic][0] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
     if home is None:
         see = "higherpair calc --help"
-        raise SceneError(PLACE, "TOPIC", topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS), see=see)
+        raise SceneError(
+            PLACE, Typed("TOPIC"), topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS), see=see
+        )
     return home
 
 
@@ -239,5 +241,5 @@ def _begun(
     scene = load_scene(addresses[0], language)
     table_from = getattr(module, "table_from", None)
     if table_from is None:
-        raise SceneError(addresses[0], "TOPIC", topic, "keys_not_a_scene")
+        raise SceneError(addresses[0], Typed("TOPIC"), topic, "keys_not_a_scene")
     return of(table_from(scene, addresses[0], table)), scene.scene.language

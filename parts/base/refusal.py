@@ -58,6 +58,10 @@ class SceneError(Curable, ValueError):
         return sentence(self)
 
 
+class Typed(str):
+    """What stands where a refusal has its key for a word of the command line: told as the usage tells it."""
+
+
 # what works is to leave the key out
 REMOVED = Nearest(None)
 
@@ -102,7 +106,8 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     """The one line that a user reads: file, key, value, what is wrong, what would work."""
     # a table is told by its key alone
     given = "" if refusal.value is None or isinstance(refusal.value, Struct) else f" = {_shown(refusal.value)}"
-    place = f"{refusal.source}: {_short(refusal.key, _PLACE)}{given}" if refusal.key else refusal.source or '""'
+    key = words(language).term("command line", refusal.key) if isinstance(refusal.key, Typed) else refusal.key
+    place = f"{refusal.source}: {_short(key, _PLACE)}{given}" if key else refusal.source or '""'
     line = f"{place}: {words(language).say(explained(refusal))}"
     return "".join(c if c.isprintable() else "?" for c in line)
 

@@ -254,6 +254,27 @@ def test_verify_complains_about_what_it_cannot_judge(tmp_path: Path, capsys: pyt
     assert run("verify", folder / "g.svg", folder / "g.svg") == 0
 
 
+@pytest.mark.parametrize("words", [("calc", "spurr"), ("calc", "planetary", "james"), ("new", "spurr")])
+def test_words_of_the_command_line_are_told_as_its_usage_tells_them(
+    words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    """``calc: TOPIC = "spurr"`` was told where the usage says ТЕМА."""
+    for language in ("en", "uk"):
+        assert run(words[0], "--help", "--language", language) == 0
+        usage = {word for word in re.findall(r"\w+", capsys.readouterr().out) if word.isupper()}
+        told = complaint(capsys, *words, "--language", language)
+        assert re.findall(r": (\w+) = ", told)[0] in usage
+
+
+@pytest.mark.parametrize("name", ["spur_gear", "cam"])
+def test_a_scene_to_start_from_names_commands_in_its_language(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """``higherpair new KIND.KEY`` was told in Ukrainian, where the usage says ВИД."""
+    assert run("new", name, "--language", "uk") == 0
+    commands = re.findall(r"higherpair \w+ (.+)", capsys.readouterr().out)
+    assert len(commands) > 2
+    assert [c for c in commands if re.search(r"\b[A-Z]{3,}\b", c)] == []
+
+
 def test_what_the_system_forbids_is_told_in_the_language_asked_for(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
