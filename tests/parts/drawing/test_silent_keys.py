@@ -54,7 +54,9 @@ def bases() -> dict[str, tuple[Raw, str]]:
     """Scenes by name, and the part that is drawn in each."""
     drawn = [name for name, kind in KINDS.items() if kind.drawing]
     found: dict[str, tuple[Raw, str]] = {
-        f"new {kind}": (scenes()[f"new {kind}"], "gear") for kind in drawn if f"new {kind}" in scenes()
+        f"new {kind}": (raw := scenes()[f"new {kind}"], next(k for k, p in raw["parts"].items() if p["kind"] == kind))
+        for kind in drawn
+        if f"new {kind}" in scenes()
     }
     found |= {name: ({"parts": {"p": part}, "exports": [{"format": "svg"}]}, "p") for name, part in PARTS.items()}
     for name in MORE:
