@@ -286,7 +286,12 @@ def pretty(text: str, words: Words) -> str:
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)", r"\1 \2", text)
     text = re.sub(r"\*\*([234])", lambda m: _SUPERSCRIPTS[m[1]], text)
     text = re.sub(r"\bpi\b", "π", text)
-    text = re.sub(r"\babs\(((?:[^()]|\([^()]*\))*)\)", r"|\1|", text)
+    while found := re.search(r"\babs\(", text):
+        end, depth = found.end(), 1
+        while depth:
+            depth += {"(": 1, ")": -1}.get(text[end], 0)
+            end += 1
+        text = f"{text[: found.start()]}|{text[found.end() : end - 1]}|{text[end:]}"
     return re.sub(r"\b(arctan|tan)\b", lambda m: words.term("function", m[1]), text)
 
 

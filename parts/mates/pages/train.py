@@ -418,7 +418,7 @@ class _Page:
         stop = before[bodies[stage.carrier]]
         rows = [(self._name(body), float(n), float(n - stop)) for body, n in before.items()]
         heads = ((N_("link"), ""), ("n", ""), (f"n - n_{stage.carrier}", ""))
-        title = message("Inversion (table 2.1), turns for one of {link}", link=stage.start)
+        title = message("Inversion (table 2.1), turns for one of {link}", link=self._name(bodies[stage.start]))
         self.page.table(f"inversion_{stage.carrier}", title, heads, rows)
         if _DERIVATION not in self.page.notes:
             self.page.note(_DERIVATION)

@@ -131,6 +131,14 @@ def test_what_cannot_be_built_is_told_with_what_can() -> None:
     assert "z_3 = 42 is coaxial, with 21.6" in " ".join(calculated("case=trains_10")["notes"])
 
 
+def test_the_table_of_inversion_is_told_for_a_link_that_it_has() -> None:
+    """Wheels 2 and 3 on one shaft are link 2: the table was told for one turn of a link 3, which it had not."""
+    told = calculate("train", ["practicum_example_2"], "text", "en")
+    link = re.findall(r"Inversion .*, turns for one of (\S+)\n", told)
+    table = told.partition("Inversion ")[2].partition("\n\n")[0]
+    assert link == re.findall(r"(?m)^ *(\S+) +1 +\S+$", table) == ["2"]
+
+
 def test_the_table_of_inversion_is_that_of_the_speeds() -> None:
     rows = {row["link"]: row for row in calculated("case=trains_7", "teeth.2=40")["inversion_H"]}
     assert rows["1"]["n"] == 1

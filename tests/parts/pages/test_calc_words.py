@@ -90,6 +90,7 @@ def test_only_rounding_is_taken_for_what_was_typed() -> None:
         ("pi * m", "π·m"),
         ("abs((e - f) / f) * 100", "|(e - f)/f|·100"),
         ("abs(a)", "|a|"),
+        ("abs(arctan(a / (b - sin(c))) - 1) * abs(d)", "|arctan(a/(b - sin c)) - 1|·|d|"),
         ("cos(alpha)**2", "cos² alpha"),
         ("tan(gamma + rho)", "tan(gamma + rho)"),
         ("inv(alpha)", "inv alpha"),
