@@ -43,14 +43,17 @@ def at_home(refusal: SceneError, raw: Tables, plain: Mapping[str, type[Struct]])
         kind = looked_up(raw, [*steps[:2], "kind"]) if within and own == _table(header) else None
         if isinstance(kind, str) and kind in kinds and has_key(kinds[kind].keys, key):
             return _told(refusal, key, [f"[{own}.{steps[1]}]" if own == "parts" else header])
+    if within:
+        # far tables have keys of the same name by chance, as instances have the `at` of a corner
+        return refusal
     for name in (key, *alike):
-        found: list[Text] = [*(() if within else _inside(name, raw, steps))]
+        found: list[Text] = [*_inside(name, raw, steps)]
         if own != "defaults" and defaults_take(name, raw, export):
             found.append("[defaults]")
         for header, kinds in homes().items():
             table = _table(header)
             there = [row["kind"] for row in _rows(raw.get(table)) if row.get("kind") in [*kinds]]
-            if (table != own or within) and any(has_key(kinds[kind].keys, name) for kind in there):
+            if table != own and any(has_key(kinds[kind].keys, name) for kind in there):
                 found.append(header)
         for header, keys in plain.items():
             if (

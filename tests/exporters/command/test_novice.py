@@ -50,6 +50,9 @@ MISPLACED = (
     ("[parts.a]", "diameter_quotient = 2", 'diameter_quotient belongs to [parts.NAME] of kind "worm_wheel", "worm"'),
     # in a table of a part that has the key itself
     ("[parts.a]", "hub = { diameter = 14, module = 2 }", "parts.a.hub.module = 2: module belongs to [parts.a]"),
+    # a corner has x and y: the `at` of instances and the `centre` of plates are no help
+    ("[parts.a]", "spokes = { count = 5, width = 4.0, at = [1.0, 2.0] }", "unknown key; known keys: count, width"),
+    ("[parts.a]", "holes = { count = 5, centre = [1.0, 2.0] }", "unknown key; known keys: count, diameter"),
     # a near spelling of its own table's, or another book's word, is told before other tables
     ("[parts.a]", "face_widht = 2.0", "did you mean face_width?"),
     ("[parts.a]", "thickness = 2.0", "did you mean face_width?"),
