@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from exporters.production.request import Request
+from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Curve
@@ -46,11 +47,7 @@ def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expecte
             raise request.refused("purpose", request.export.purpose, "no_assembly_view", kind=part.kind, part=part.id)
         sketches[part.id] = sketch
     shown = [Shown(i.id, i.part, sketches[i.part], i.scene_from_part) for i in placing.instances if i.part in wanted]
-    centre, way = _line_of_centres(placing, set(wanted))
-    back = Placement3(translation=(-centre.real, -centre.imag, 0.0))
-    x, y = way.real, way.imag
-    front = seen(shown, Placement3(((x, y, 0.0), (-y, x, 0.0), (0.0, 0.0, 1.0))) @ back)
-    section = seen(shown, Placement3(((x, y, 0.0), (0.0, 0.0, 1.0), (y, -x, 0.0))) @ back)
+    centre, way, front, section = _seen(shown, placing, set(wanted))
     main, across = along_axes(front), cut(section)
     main = replace(main, strokes=(*main.strokes, *_pitch_lines(placing, set(wanted), centre, way)))
     views = [
@@ -60,14 +57,38 @@ def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expecte
     return [("", assembly_sheet(views, list_rows(placing.instances, wanted, asked.language), asked))]
 
 
-def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, complex]:
-    """A point of the section's plane, and its direction: through the axes of the first mate that has two."""
-    for mate in placing.mates:
+def _seen(
+    shown: Sequence[Shown], placing: Placing, wanted: set[str]
+) -> tuple[complex, complex, list[Shown], list[Shown]]:
+    """A point of the section's plane, its direction, and the instances in both views: of the first plane, of those
+    through the axes of mates, to which no axis is oblique.
+    """
+    refusal = None
+    for centre, way in _planes(placing, wanted):
+        back, (x, y) = Placement3(translation=(-centre.real, -centre.imag, 0.0)), (way.real, way.imag)
+        turns = ((x, y, 0.0), (-y, x, 0.0), (0.0, 0.0, 1.0)), ((x, y, 0.0), (0.0, 0.0, 1.0), (y, -x, 0.0))
+        try:
+            front, section = (seen(shown, Placement3(turn) @ back) for turn in turns)
+        except ParameterError as error:
+            refusal = refusal or error
+        else:
+            return centre, way, front, section
+    assert refusal is not None
+    raise refusal
+
+
+def _planes(placing: Placing, wanted: set[str]) -> Iterator[tuple[complex, complex]]:
+    """A point and the direction of each plane through the axes of a mate that has two: of what meshes or touches before
+    any other, like a key beside its shaft's axis.
+    """
+    alone = True
+    for mate in sorted(placing.mates, key=lambda mate: not isinstance(mate.mating, Touching)):
         step = _foot(mate, mate.first.centre, mate.second.scene_from_part) - mate.first.centre
         if {mate.first.part, mate.second.part} <= wanted and abs(step) > _SAME:
-            return mate.first.centre, step / abs(step)
-    first = next(i for i in placing.instances if i.part in wanted)
-    return first.centre, 1.0
+            alone = False
+            yield mate.first.centre, step / abs(step)
+    if alone:
+        yield next(i for i in placing.instances if i.part in wanted).centre, 1.0
 
 
 def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: complex) -> Iterator[tuple[str, Curve]]:

@@ -340,7 +340,11 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -
             )
             zones = seen.setdefault((_radius(corner.imag), edge.outer), {})
             zone = _zone(edges, k, fits, turn) if edge.runs_along() else ("Ø", "")
-            if corner.imag < _NONE or at_cylinder or (zones and not edge.runs_along()):
+            # the corner between a cone outside and one inside is one of either
+            twice = any(
+                abs(place - corner) < _NONE for one in seen.values() for told in one.values() for _, place in told
+            )
+            if corner.imag < _NONE or at_cylinder or ((zones or twice) and not edge.runs_along()):
                 continue
             zones.setdefault(zone, []).append((k, corner))
     found = [(*places[0], zone, places) for zones in seen.values() for zone, places in zones.items()]

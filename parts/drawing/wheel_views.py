@@ -481,10 +481,10 @@ def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> 
 
 
 def bore_note(ends: tuple[float, float], wall: float, words: str) -> Note:
-    """The sign of a bore's wall in a section: at its upper end, or where there is more room."""
+    """The sign of a bore's wall in a section: at its upper end, or where there is more room; not from the material."""
     low, high = ends
     inside = complex((low + high) / 2, wall), complex(0.0, -wall)
-    return Note(complex(high, wall), words, is_rough=True, also=(inside, (complex(low, wall), 0j)))
+    return Note(complex(high, wall), words, is_rough=True, free=1 + 0j, also=(inside, (complex(low, wall), -1 + 0j)))
 
 
 def goes_on(section: View, length: float) -> View:

@@ -74,6 +74,9 @@ def _ring(wheel: GenevaWheel, subject: Subject) -> PartDrawing:
     """Cut through the end of a slot."""
     end, outer = wheel.slot_end + wheel.half_width, wheel.outer_radius
     section = ring_section(subject.part.face_width, (wheel.tip_radius, end, outer), wheel.holes, subject)
+    rough = subject.rough(subject.wishes.flank_roughness)
+    runs = Note(complex(subject.part.face_width / 2, -end), rough, is_rough=True, free=1j)
+    section = section.plus(notes=[runs])
     face = ring_face(outer, wheel.holes, subject)
     told = Round("tip_diameter", 0j, wheel.tip_radius, angles=(-60.0, -120.0, -30.0, 210.0))
     face = replace(face, rounds=(told, *face.rounds)).plus((VISIBLE, edge) for edge in wheel.outline())
@@ -149,7 +152,7 @@ def _with_disc(section: View, driver: GenevaDriver, subject: Subject) -> View:
     crank, pin = disc.drive.crank_radius, driver.pin_radius
     radius, apex = disc.wheel.locking_radius, disc.apex
     upright, even = Placement2(0.0, complex(low)), disc.number_of_pins % 2 == 0
-    pins = [block(low, ends[1], crank - pin, crank + pin)]
+    pins: list[tuple[Line | Arc, ...]] = [block(low, ends[1], crank - pin, crank + pin)]
     # across of pin 1 stands another one where their number is even
     pins += [below(pins[0])] * even
     if driver.has_bored_disc:

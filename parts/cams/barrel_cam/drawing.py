@@ -22,7 +22,7 @@ from parts.drawing.directions import directions
 from parts.drawing.extent import farthest
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.shown import shown_pieces
-from parts.drawing.wheel_views import bore_cut, spline_cut, with_bore
+from parts.drawing.wheel_views import bore_cut, bore_note, spline_cut, with_bore
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import holes_of
 
@@ -97,14 +97,16 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
         sizes.append(Size("start_height", -1j * outer, edge, "below"))
     middle = (outer + inner) / 2
     at = complex(_wall(cam, LOWER, middle, 0.0), middle)
-    rough = Note(at, subject.rough(wishes.flank_roughness), is_rough=True)
+    notes = [Note(at, subject.rough(wishes.flank_roughness), is_rough=True), Note(-1j * outer, "z = 0", free=-1 - 1j)]
+    if holes.bore is not None:
+        notes.append(bore_note((low, high), -walls[1], subject.rough(wishes.bore_roughness)))
     axes = (Line(complex(min(low, 0.0)), complex(max(high, length))), *spline.axes)
     return View(
         tuple(strokes),
         tuple(map(tuple, hatched)),
         axes,
         tuple(size for size in sizes if size.value),
-        notes=(rough, Note(-1j * outer, "z = 0", free=-1 - 1j)),
+        notes=tuple(notes),
     )
 
 

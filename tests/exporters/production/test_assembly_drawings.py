@@ -271,3 +271,38 @@ def test_a_leader_comes_from_the_side_on_which_its_part_stands() -> None:
     one, two = sorted(leaders(job), key=lambda line: line.start.real)
     assert one.end.real < one.start.real
     assert two.end.real > two.start.real
+
+
+@pytest.mark.parametrize("way", [0.0, 40.0])
+def test_the_section_goes_through_the_axes_of_gears_not_through_that_of_a_key(tmp_path: Path, way: float) -> None:
+    """A key lies 8.5 mm beside its shaft's axis and is mated first: the section went through both, not by the wheel.
+
+    In the plane of the axes the scene is m (z + z) / 2 + m (z + z + 4) / 2 = 246 long, across it as the wheel: 186. To
+    a plane at 40 degrees the key is oblique: the section goes through it and the shaft.
+    """
+    gear = {"kind": "spur_gear", "module": 3.0, "face_width": 30.0, "bore_diameter": 25.0}
+    parts = {
+        "shaft": {"kind": "shaft", "steps": [{"diameter": 25.0, "length": 89.0}]},
+        "key": {"kind": "key", "shaft_diameter": 25.0, "length": 28.0},
+        "pinion": {**gear, "number_of_teeth": 20},
+        "wheel": {**gear, "number_of_teeth": 60},
+    }
+    on_shaft = {"kind": "fixed", "first": "shaft"}
+    mates = [
+        {**on_shaft, "second": "key", "offset": [0.0, 8.5, 43.0], "axis": [0.0, 1.0, 0.0], "rotation_deg": 90.0},
+        {**on_shaft, "second": "pinion", "offset": [0.0, 0.0, 26.0]},
+        {"kind": "external_gear_pair", "first": "pinion", "second": "wheel", "direction_deg": way},
+    ]
+    raw = {"parts": parts, "mates": mates,
+           "exports": [{"format": "dxf", "purpose": "assembly"}]}  # fmt: skip
+    document = ezdxf.readfile(written(tmp_path, raw)["dxf"])
+    found: dict[int, list[float]] = {0: [], 90: []}
+    for size in document.modelspace().query("DIMENSION"):
+        found[round(size.dxf.angle) % 180].append(size.get_measurement() * document.header["$DIMLFAC"])
+    if way:
+        both = [120 * math.sin(math.radians(way)), 120 * math.cos(math.radians(way))]
+        assert [
+            min(told, key=lambda d, a=a: abs(d - a)) for told, a in zip(found.values(), both, strict=True)
+        ] == pytest.approx(both)
+    else:
+        assert (sorted(found[0]), sorted(found[90])) == (pytest.approx([120.0, 246.0]), pytest.approx([89.0, 186.0]))

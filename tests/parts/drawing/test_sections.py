@@ -309,5 +309,4 @@ def test_what_is_of_one_piece_has_no_edge_within_its_section(name: str) -> None:
                        and (one.start.imag - y) * (one.end.imag - y) <= 0 for one in lines), (z, y)  # fmt: skip
     mouths = {one.start.real for one in lines if one.start.real == one.end.real and one.start.imag * one.end.imag <= 0}
     assert mouths == ({0.0, 3.0, 17.0, 20.0} if name == "lantern" else {0.0, end.real})
-    bore = next(note for note in view.notes if note.is_rough and not note.free)
-    assert bore.at == end
+    assert any(note.is_rough and note.at == end for note in view.notes)

@@ -72,3 +72,25 @@ def test_a_radius_and_a_sign_that_are_moved_are_seen() -> None:
     rounded = next(one for one in view.rounds if one.is_radius)
     turned = replace(rounded, angles=tuple(angle + 90.0 for angle in rounded.angles))
     assert astray(replace(view, rounds=(turned,)))
+
+
+@pytest.mark.parametrize("shift", [0.0, -0.4])
+def test_the_outer_diameter_of_a_flat_bevel_wheel_is_told_once(shift: float) -> None:
+    """Its tip cone looks inwards past the corner: d_ae = m z + 2 m (1 + x) cos delta was told twice (GOST 2.307)."""
+    wheel = {"kind": "bevel_gear", "module": 10.0, "number_of_teeth": 60, "mate_number_of_teeth": 6,
+             "bore_diameter": 60.0, "profile_shift_coefficient": shift}  # fmt: skip
+    (view,) = drawing_of(wheel).views
+    tip = 600 + 20 * (1 + shift) / np.hypot(1, 10)
+    across = sorted(size.value for size in view.sizes if size.side in ("left", "right"))
+    assert across == pytest.approx([60.0, tip], abs=NEAR)
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_a_bore_that_has_a_fit_has_its_roughness_too(name: str) -> None:
+    """Cylindrical cams told H7 with the Ra 6.3 of all other surfaces; the slots of a Geneva ring run on pins."""
+    made = drawing_of(DRAWN[name], bore_roughness=0.4, flank_roughness=0.2)
+    signs = [note.text for view in made.views for note in view.notes if note.is_rough]
+    fits = [one.after for view in made.views for one in view.sizes if one.name.startswith("bore")]
+    assert signs.count("Ra 0.4") >= ("H7" in fits)
+    if DRAWN[name]["kind"].startswith("geneva"):
+        assert "Ra 0.2" in signs

@@ -175,8 +175,8 @@ def test_signs_of_roughness_and_letters_stand_where_they_belong(made: dict[str, 
     teeth, bore, *letters = section.notes
     assert (teeth.at, teeth.text, teeth.is_rough, teeth.goes_on, teeth.also) == (pitch, "Ra 1.6", True, True, ())
     assert (bore.at, bore.text, bore.is_rough, bore.goes_on) == (wall, "Ra 1.6", True, False)
-    # out of the material: towards the axis from within, from anywhere at the other end
-    assert bore.also == ((inside, complex(0, -wall.imag)), (end, 0j))
+    # out of the material: towards the axis from within, along it at both ends
+    assert (bore.free, bore.also) == (1, ((inside, complex(0, -wall.imag)), (end, -1)))
     assert [(n.at, n.text, n.looks, n.is_rough) for n in letters] == (
         [(complex(wall.real), "A", -1, False)] if rest[1:] else []
     )
