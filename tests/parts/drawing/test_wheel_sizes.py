@@ -255,7 +255,7 @@ def test_directions_are_told_from_a_tooth_or_from_the_bore(made: dict[str, PartD
 def test_spokes_are_told_at_the_edge_of_the_first(made: dict[str, PartDrawing]) -> None:
     """Half of their width off its middle line, halfway out: the flat stands upright, the first spoke 0 degrees on."""
     (note,) = made["spoked"].views[1].notes
-    assert note.text == "5 spokes 8 wide, corners R 2"
+    assert note.text == "5 spokes 8 wide, corners R2"
     assert note.at == pytest.approx(complex(28.5, 4.0))
     plain = drawing_of(SPOKED | {"spokes": {"count": 5, "width": 8.0, "inner_diameter": 30.0, "outer_diameter": 84.0}})
     assert plain.views[1].notes[0].text == "5 spokes 8 wide"
