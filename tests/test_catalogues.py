@@ -212,6 +212,15 @@ def test_translations_are_sound(file: Path) -> None:
     assert bad == {}
 
 
+@FILES
+def test_a_readme_has_the_terms_of_its_catalogue(file: Path) -> None:
+    """What a user reads first names a thing as every report after it does."""
+    readme = ROOT / f"README.{file.parts[-3]}.md"
+    if not readme.is_file():
+        pytest.skip("no source tree")
+    assert rivals(file.parts[-3]).findall(readme.read_text("utf-8").lower()) == []
+
+
 @pytest.mark.parametrize(
     ("english", "told"),
     [
