@@ -160,7 +160,7 @@ class Sketch(Record):
     """Layers from below; ``creases``: heights at which walls bend; ``pitch``: radius of the pitch cylinder, mm.
 
     ``pitch_cone``: both ends of the pitch line of a bevel gear, r + iz; ``pitch`` is then the outer radius.
-    ``is_shaft``: not hatched where it is cut along its axis; ``is_ball``: nowhere (GOST 2.305).
+    ``is_shaft``: not hatched where it is cut along its axis; ``is_key``: along x; ``is_ball``: nowhere (GOST 2.305).
     """
 
     layers: tuple[Layer, ...]
@@ -168,6 +168,7 @@ class Sketch(Record):
     pitch: float | None = None
     is_shaft: bool = False
     is_ball: bool = False
+    is_key: bool = False
     pitch_cone: tuple[complex, complex] | None = None
 
     def turned_over(self) -> Sketch:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from parts.base.kind import Kind, Others
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import either, part_mm, start
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
     from geometry.solids.plate import Edge, PlateOutline
+    from geometry.solids.sketch import Sketch
 
 
 _SHAFT_DIAMETER = part_mm("of the shaft whose key it is by DIN 6885 and GOST 23360", above=0, example=18.0)
@@ -98,6 +99,11 @@ class KeyKind(Kind[KeySpec, Key]):
 
         shape = WheelShape(thing.height, chamfer_below=thing.chamfer, chamfer_above=thing.chamfer)
         return wheel_body(shape, wheel_sections(moved, min(thing.width, thing.length) / 2, HubHoles()), offset)
+
+    def sketch(self, keys: KeySpec, thing: Key) -> Sketch | None:
+        """As a key, which lies along x."""
+        made = super().sketch(keys, thing)
+        return None if made is None else replace(made, is_key=True)
 
     def height(self, keys: KeySpec, thing: Key) -> float:
         """h, mm."""

@@ -329,7 +329,8 @@ def cut(shown: Sequence[Shown]) -> Drawn:
         strokes += [stroke for stroke, _ in drawn if stroke is not None]
         loops = [loop for _, loop in drawn if loop is not None]
         filled.setdefault(one.part, []).extend(loops)
-        if not (one.sketch.is_ball or (_is_whole(one.sketch) and not one.stands)):
+        along_x = one.sketch.is_key and abs(one.place.rotation[2][0]) < _PARALLEL
+        if not (one.sketch.is_ball or along_x or (_is_whole(one.sketch) and not one.stands)):
             hatches.setdefault(one.part, []).extend(loops)
         if drawn:
             strokes += _pitches(one) if abs(one.depth) < _SAME or one.stands else ()

@@ -310,3 +310,22 @@ def test_what_is_of_one_piece_has_no_edge_within_its_section(name: str) -> None:
     mouths = {one.start.real for one in lines if one.start.real == one.end.real and one.start.imag * one.end.imag <= 0}
     assert mouths == ({0.0, 3.0, 17.0, 20.0} if name == "lantern" else {0.0, end.real})
     assert any(note.is_rough and note.at == end for note in view.notes)
+
+
+@pytest.mark.parametrize(
+    ("view", "hatched"),
+    [(Placement3(), False), (SIDE, False), (Placement3(((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))), True)],
+    ids=["from above", "from its side", "from its end"],
+)
+@pytest.mark.parametrize("upright", [False, True])
+def test_a_key_is_hatched_only_where_it_is_cut_across(view: Placement3, hatched: bool, upright: bool) -> None:
+    """GOST 2.305: along its length it is shown uncut. ``upright``: as it lies in a shaft that stands."""
+    raw = {"parts": {"p": {"kind": "key", "width": 6.0, "height": 6.0, "length": 20.0}}, "exports": [{"format": "svg"}]}
+    part = make_parts(scene_from_dict(raw, "t", "t"), "t")[0]["p"]
+    sketch = part.made_by.sketch(part.keys, part.thing)
+    assert sketch is not None
+    turned = Placement3(((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))) if upright else Placement3()
+    middle = Placement3(translation=(0.0, 0.0, -3.0))
+    section = cut(seen([Shown("p", "p", sketch, turned @ middle)], view @ turned.inverse()))
+    assert bool(section.hatched) == hatched
+    assert section.strokes
