@@ -152,14 +152,13 @@ def _with_disc(section: View, driver: GenevaDriver, subject: Subject) -> View:
     crank, pin = disc.drive.crank_radius, driver.pin_radius
     radius, apex = disc.wheel.locking_radius, disc.apex
     upright, even = Placement2(0.0, complex(low)), disc.number_of_pins % 2 == 0
+    across = apex if even else radius
     pins: list[tuple[Line | Arc, ...]] = [block(low, ends[1], crank - pin, crank + pin)]
     # across of pin 1 stands another one where their number is even
     pins += [below(pins[0])] * even
     if driver.has_bored_disc:
         bored = HubHoles(driver.holes.bore)
-        on_it = section_view(
-            Wheel(WheelShape(driver.width), bored, (apex, apex if even else radius), None, stands=False), subject
-        )
+        on_it = section_view(Wheel(WheelShape(driver.width), bored, (apex, across), None, stands=False), subject)
         strokes = [(layer, curve.placed(upright)) for layer, curve in on_it.strokes]
         hatched = [tuple(curve.placed(upright) for curve in loop) for loop in on_it.hatched]
         section = goes_on(section, driver.width)
@@ -167,11 +166,11 @@ def _with_disc(section: View, driver: GenevaDriver, subject: Subject) -> View:
         hatched = [] if even else [below(block(low, ends[0], -apex, radius))]
         strokes = [stroke for loop in hatched for stroke in outlined(loop)]
     strokes += [(VISIBLE, line) for loop in pins for line in loop]
-    sizes = [Size("disc_height", complex(0.0, -radius), complex(ends[0], -radius), "below")]
+    sizes = [Size("disc_height", complex(0.0, -across), complex(ends[0], -across), "below")]
     if ends[0] != ends[1]:
         sizes.append(Size("pin_height", complex(0.0, crank + pin), complex(ends[1], crank + pin), "above"))
     axes = Line(complex(0.0, crank), complex(ends[1], crank)), Line(0j, complex(max(ends)))
     rough = subject.rough(subject.wishes.flank_roughness)
     runs = [Note(complex(low + driver.pin_length / 2, crank + pin), rough, is_rough=True, free=1j)]
-    runs.append(Note(complex(low + driver.width / 2, -(apex if even else radius)), rough, is_rough=True, free=-1j))
+    runs.append(Note(complex(low + driver.width / 2, -across), rough, is_rough=True, free=-1j))
     return joined(section.plus(strokes, [*hatched, *pins], axes, sizes, notes=runs), low)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from importlib import import_module
 from typing import Any
@@ -310,6 +311,9 @@ def test_what_is_of_one_piece_has_no_edge_within_its_section(name: str) -> None:
     mouths = {one.start.real for one in lines if one.start.real == one.end.real and one.start.imag * one.end.imag <= 0}
     assert mouths == ({0.0, 3.0, 17.0, 20.0} if name == "lantern" else {0.0, end.real})
     assert any(note.is_rough and note.at == end for note in view.notes)
+    # lengths end at material
+    for size in (one for one in view.sizes if one.side == "below"):
+        assert any(inside(size.end + 0.01 * cmath.exp(1j * turn)) for turn in range(6)), size
 
 
 @pytest.mark.parametrize(
