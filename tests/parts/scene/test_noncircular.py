@@ -146,7 +146,7 @@ def test_the_scene_to_start_from_builds(capsys: pytest.CaptureFixture[str]) -> N
     text = capsys.readouterr().out
     scene = scene_from_toml(text.encode(), "t", "t")
     parts, _ = make_parts(scene, "t")
-    assert parts["gear"].quantities["module"] == pytest.approx(2.0)
+    assert parts["noncircular_gear"].quantities["module"] == pytest.approx(2.0)
     # every key is told
     assert all(
         f"{key} = " in text for key in ("ratio_cosines", "mate_number_of_teeth", "role", "lobes", "centre_distance")

@@ -223,11 +223,11 @@ def test_a_part_that_cannot_be_is_told_by_the_key_in_which_it_is_not_its_mates(
         ("working_drawings", "shaft.steps.2.grooves.0.width", 110.0),
         ("working_drawings", "shaft.steps.2.grooves.0.at", 21.5),
         # a size that nobody typed was refused
-        ("new face_gear", "gear.pinion_profile_shift_coefficient", 3.0),
+        ("new face_gear", "face_gear.pinion_profile_shift_coefficient", 3.0),
         # a quick test that proves no undercut was the limit of one which leaves some, and what runs on without gaps
         ("conjugate", "b.roller_distance", 39.0),
         # a value that leaves room for a backlash was told as a limit, beyond which teeth stand
-        ("new face_gear", "gear.circumferential_thinning", 20.0),
+        ("new face_gear", "face_gear.circumferential_thinning", 20.0),
     ],
 )
 def test_what_stands_beside_a_limit_moves_it(name: str, place: str, value: float) -> None:
@@ -244,12 +244,12 @@ def test_what_stands_beside_a_limit_moves_it(name: str, place: str, value: float
     ("name", "key", "value", "told"),
     [
         ("bevel_pair", "pinion.mounting_distance", 0.7, "pinion.mounting_distance"),
-        ("new key", "gear.width", 10.0, "gear.width"),
-        ("new sprocket", "gear.pitch", 10.0, "gear.pitch"),
-        ("new geneva_wheel", "gear.crank_radius", 30.0, "gear.crank_radius"),
+        ("new key", "key.width", 10.0, "key.width"),
+        ("new sprocket", "sprocket.pitch", 10.0, "sprocket.pitch"),
+        ("new geneva_wheel", "geneva_wheel.crank_radius", 30.0, "geneva_wheel.crank_radius"),
         # of both the one that can be left out: an oval so slender is concave, a worm so steep has no root
-        ("new noncircular_gear", "gear.eccentricity", 0.7, "gear.eccentricity"),
-        ("new noncircular_gear", "gear.eccentricity", 0.1, "gear.axis_ratio"),
+        ("new noncircular_gear", "noncircular_gear.eccentricity", 0.7, "noncircular_gear.eccentricity"),
+        ("new noncircular_gear", "noncircular_gear.eccentricity", 0.1, "noncircular_gear.axis_ratio"),
         ("worm", "worm.lead_angle_deg", 30.0, "worm.lead_angle_deg"),
     ],
 )
@@ -300,7 +300,7 @@ def test_a_gear_in_mesh_with_its_twin_is_offered_the_shift_that_both_take(shift:
 
 def test_what_is_to_be_removed_is_named() -> None:
     """Before: ``remove it`` behind two keys, and in Ukrainian a masculine of whatever the key is."""
-    refusal = refusal_of(put(scenes()["new sprocket"], ("parts", "gear", "roller_diameter"), 8.0))
+    refusal = refusal_of(put(scenes()["new sprocket"], ("parts", "sprocket", "roller_diameter"), 8.0))
     assert refusal is not None
     assert sentence(refusal).endswith("give either chain or roller_diameter; remove roller_diameter")
     assert sentence(refusal, "uk").endswith("задайте або chain, або roller_diameter; приберіть roller_diameter")
