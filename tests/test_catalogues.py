@@ -21,6 +21,7 @@ from babel.messages.catalog import Message
 
 from parts.base.psv import rows_of
 from parts.base.texts import LOCALE, words
+from parts.scene.files import SCENE_FOLDER
 from parts.texts import checks
 from tests import catalogues
 from tests.catalogues import HOUSE, catalogue_files, compiled, extracted, names_typed, read, untranslated, updated
@@ -219,6 +220,15 @@ def test_a_readme_has_the_terms_of_its_catalogue(file: Path) -> None:
     if not readme.is_file():
         pytest.skip("no source tree")
     assert rivals(file.parts[-3]).findall(readme.read_text("utf-8").lower()) == []
+
+
+@FILES
+def test_titles_and_notes_of_scenes_have_the_terms_of_their_catalogue(file: Path) -> None:
+    """They stand in the scenes themselves: a coupon called a backlash as no report does."""
+    language = file.parts[-3]
+    texts = {scene: scene.read_text("utf-8").lower() for scene in sorted(SCENE_FOLDER.glob("*.toml"))}
+    assert sum(f"\n{language} = " in text or f" {language} = " in text for text in texts.values()) > 20
+    assert {scene.stem: found for scene, text in texts.items() if (found := rivals(language).findall(text))} == {}
 
 
 @pytest.mark.parametrize(
