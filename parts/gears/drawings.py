@@ -62,6 +62,8 @@ from parts.keys.wheel import shape_of, wheel_shape
 
 # mm, what is no length; how long marks of the teeth's direction are, and how far apart: parts of what has room
 _NONE, _MARK, _APART = 1e-9, 0.7, 0.3
+# the section of a long rack is so high on paper at least, mm
+_LEAST_SECTION = 20.0
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
@@ -231,6 +233,7 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
             Size("datum_height", complex(0, foot), 0j, "left"),
         ),
         title=f"{cut.letter}-{cut.letter}",
+        least=_LEAST_SECTION,
     )
     if not aslant:
         return front, section

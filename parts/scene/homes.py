@@ -48,7 +48,9 @@ def at_home(refusal: SceneError, raw: Tables, plain: Mapping[str, type[Struct]])
         return refusal
     for name in (key, *alike):
         found: list[Text] = [*_inside(name, raw, steps)]
-        if own != "defaults" and defaults_take(name, raw, export):
+        # what others of its own table take helps none of its kind
+        others = {table: rows for table, rows in raw.items() if within or table != own}
+        if own != "defaults" and defaults_take(name, others, export):
             found.append("[defaults]")
         for header, kinds in homes().items():
             table = _table(header)

@@ -80,6 +80,15 @@ def test_a_key_above_all_tables_is_told_where_it_belongs(tmp_path: Path, capsys:
     assert line(tmp_path, capsys, "kerf = 0.2\n" + PAIR) == "kerf = 0.2: kerf belongs to [defaults] or [[exports]]"
 
 
+def test_a_key_that_other_kinds_in_the_scene_have_is_none_of_the_defaults(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In [defaults] it would be that of the gears and still none of the bevel gear, which has hub_diameter."""
+    bevel = '[parts.c]\nkind = "bevel_gear"\nmodule = 2.0\nnumber_of_teeth = 20\nmate_number_of_teeth = 40\n'
+    told = line(tmp_path, capsys, f"{bevel}hub = {{ diameter = 20 }}\n{PAIR}")
+    assert told.startswith('parts.c.hub = { diameter = 20 }: hub belongs to [parts.NAME] of kind "spur_gear", ')
+
+
 def test_it_is_told_in_ukrainian_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = PAIR.replace("[parts.a]", "[parts.a]\nkerf = 0.2")
     assert line(tmp_path, capsys, text, "uk").endswith("kerf належить до [defaults] або [[exports]]")
