@@ -98,7 +98,8 @@ class ChainMating(Wrapped):
             "working_centre_distance": self.distance,
             "gear_ratio": teeth[1] / teeth[0],
             "wrap_deg": math.degrees(self.mesh.drive.wrap),
-            "chain_slack": self.mesh.slack,
+            # a taut chain is none but for rounding
+            "chain_slack": max(round(self.mesh.slack, 9), 0.0),
             "tip_gap": self.mesh.tip_gap,
         }
 

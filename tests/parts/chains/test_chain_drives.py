@@ -53,6 +53,13 @@ def test_both_turn_the_same_way_and_touch_no_roller_wrongly() -> None:
     assert back["chain_slack"] == pytest.approx(2e-6, rel=0.1)
 
 
+@pytest.mark.parametrize("links", [58, 61, 64, 80, 101])
+def test_a_chain_that_gives_its_distance_is_taut(links: int) -> None:
+    """``chain -9.02e-14 mm longer than taut`` was told of 61 links."""
+    (mate,) = placed({"number_of_links": links})[1]["mates"]
+    assert mate["chain_slack"] == 0
+
+
 @pytest.mark.parametrize("turn", [0.0, 7.0, 100.0])
 def test_seats_of_a_second_that_stands_already_must_take_the_rollers(turn: float) -> None:
     there = placed({"number_of_links": 80, "direction_deg": 30.0}, instances={"a": {"rotation_deg": turn}, "b": {}})
