@@ -34,10 +34,12 @@ class Parser(argparse.ArgumentParser):
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """A word that is none of the choices: with the one that was meant, as later versions of Python have it."""
+        if action.choices is None or value in action.choices:
+            return
         from parts.base.refusal import meant
 
-        closest = None if action.choices is None or value in action.choices else meant(value, list(action.choices))
-        if action.choices is None or closest is None:
+        closest = meant(value, list(action.choices))
+        if closest is None:
             super()._check_value(action, value)
             return
         text = self.words.text("invalid choice: %(value)r, maybe you meant %(closest)r? (choose from %(choices)s)")
