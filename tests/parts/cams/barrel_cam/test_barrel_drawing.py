@@ -85,7 +85,9 @@ def test_the_section_of_a_groove_has_its_two_walls(hub: dict[str, float] | None)
         assert ends[name][:2] == pytest.approx((start, end), abs=1e-9), name
         assert ends[name][2:] == (side, before)
     view = made.views[0]
-    (rough,) = (note for note in view.notes if note.is_rough)
+    rough, bore = (note for note in view.notes if note.is_rough)
+    assert abs(bore.at.imag) == pytest.approx(6.0)
+    assert low <= bore.at.real <= high
     assert rough.at == pytest.approx(5 + 30j, abs=1e-9)
     (axis,) = view.axes
     assert (axis.start, axis.end) == (pytest.approx(low), pytest.approx(high))
