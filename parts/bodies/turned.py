@@ -218,9 +218,21 @@ class _Turned(Kind[K, "HalfSection"]):
         """Its sizes."""
         inner, outer = thing.radii()
         bore = {"bore_diameter": 2 * inner} if inner > 0 else {}
-        told = [part.thread for part in threaded(keys)] if isinstance(keys, ShaftSpec) else []
-        remarks = tuple(Finding("cosmetic_thread", thread.diameter, thread.pitch) for thread in told)
+        remarks = tuple(_remarks(keys)) if isinstance(keys, ShaftSpec) else ()
         return Report(remarks, quantities={"outer_diameter": 2 * outer, **bore, "length": self.height(keys, thing)})
+
+
+def _remarks(keys: ShaftSpec) -> Iterator[Finding]:
+    """What the solid leaves to drawings, and roundings and chamfers of steps that have no such corner."""
+    for part in threaded(keys):
+        yield Finding("cosmetic_thread", part.thread.diameter, part.thread.pitch)
+    radii = [0.0, *map(_radius, keys.steps), 0.0]
+    for k, step in enumerate(keys.steps, 1):
+        beside = radii[k - 1], radii[k + 1]
+        if step.fillet and max(beside) <= radii[k]:
+            yield Finding("fillet_at_no_end", float(k), step.fillet)
+        if step.chamfer and min(beside) >= radii[k]:
+            yield Finding("chamfer_at_no_end", float(k), step.chamfer)
 
 
 def _seam(pockets: tuple[Pocket, ...]) -> float:

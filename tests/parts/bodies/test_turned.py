@@ -314,3 +314,22 @@ def test_new_shows_a_ball_and_all_that_a_step_of_a_shaft_may_have() -> None:
         + 30 * gaps
     )
     assert shaft == pytest.approx(math.pi / 4 * (12**2 * 10 + 17**2 * 22 + 25**2 * 15 + 20**2 * 30) - taken, rel=2e-3)
+
+
+@pytest.mark.parametrize("corner", ["fillet", "chamfer"])
+@pytest.mark.parametrize("number", [0, 1, 2, 3])
+def test_a_corner_that_a_step_has_not_is_told(corner: str, number: int) -> None:
+    """A fillet of a collar, a chamfer of a neck: both were dropped without a word. What is made moves the volume."""
+    steps = [{"diameter": d, "length": 20.0} for d in (30.0, 40.0, 20.0, 30.0)]
+
+    def made(keys: Keys) -> tuple[float, list[tuple[str, float, float]]]:
+        raw = {"parts": {"p": {"kind": "shaft", "steps": keys}}, "exports": [{"format": "stl"}]}
+        part = make_parts(scene_from_dict(raw, "t", "t"), "t")[0]["p"]
+        found = part.made_by.report(part.keys, part.thing).findings
+        return part.body(0.0).moments.volume, [(one.code, one.value, one.limit) for one in found]
+
+    plain, none = made(steps)
+    volume, found = made([s | ({corner: 2.0} if k == number else {}) for k, s in enumerate(steps)])
+    assert none == []
+    assert found == ([] if abs(volume - plain) > 1 else [(f"{corner}_at_no_end", number + 1, 2.0)])
+    assert (volume == plain) == ((corner, number) in {("fillet", 1), ("fillet", 3), ("chamfer", 2)})
