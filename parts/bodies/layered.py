@@ -18,6 +18,7 @@ from parts.base.schema import value_at
 from parts.base.texts import N_
 from parts.bodies.plate import Slots
 from parts.keys.base import MOST_LENGTH, mm, part_mm, start
+from parts.keys.holes import AcrossFlats, CornerRadius, Direction
 
 if TYPE_CHECKING:
     from geometry.curves.line_arc import Arc
@@ -39,7 +40,22 @@ class PolygonTable(Struct, forbid_unknown_fields=True):
     """A polygon, its corners rounded alike."""
 
     points: Annotated[list[tuple[_Place, _Place]], Meta(min_length=3, max_length=1000, description="x, y of corners")]
-    corner_radius: Annotated[float, part_mm("rounding of the corners", least=0)] = 0.0
+    corner_radius: CornerRadius = 0.0
+
+
+class LayerHexagonTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A hexagon: in a layer the pocket of a nut, or the head of a bolt."""
+
+    across_flats: AcrossFlats
+    at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] = (0.0, 0.0)
+    corner_radius: CornerRadius = 0.0
+    angle_deg: Direction = 90.0
+
+    def polygon(self) -> PolygonTable:
+        """Its corners, the first one clockwise of its first flat."""
+        corner, way = self.across_flats / math.sqrt(3), math.radians(self.angle_deg - 30)
+        corners = [complex(*self.at) + cmath.rect(corner, way + math.tau * k / 6) for k in range(6)]
+        return PolygonTable([(p.real, p.imag) for p in corners], self.corner_radius)
 
 
 _ARC = part_mm(
@@ -77,6 +93,7 @@ class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     thickness: Annotated[float, part_mm("thickness of the layer", above=0)]
     circles: Annotated[list[CircleTable], Meta(max_length=2000)] = field(default_factory=list)
     polygons: Annotated[list[PolygonTable], Meta(max_length=1000)] = field(default_factory=list)
+    hexagons: Annotated[list[LayerHexagonTable], Meta(max_length=1000)] = field(default_factory=list)
     slots: Slots = field(default_factory=list)
     outlines: Annotated[list[OutlineTable], Meta(max_length=1000)] = field(default_factory=list)
 
@@ -84,7 +101,7 @@ class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
 # corners of one outline, those that are turned on too
 _MOST_POINTS = 2000
 # kinds of contours of a layer, in the order in which they are numbered
-_CONTOURS = ("circles", "polygons", "slots", "outlines")
+_CONTOURS = ("circles", "polygons", "hexagons", "slots", "outlines")
 # of a contour: its layer, which of its contours it is, from 0 on, and its key
 _Spot = tuple[int, int, str]
 
@@ -113,6 +130,11 @@ _RATCHET = [
     },
 ]
 
+_NUTS = [
+    {"thickness": 3.0, "polygons": _BOX[0]["polygons"], "circles": [{"diameter": 4.4, "at": [20.0, 0.0]}]},
+    {"thickness": 3.4, "polygons": _BOX[0]["polygons"], "hexagons": [{"across_flats": 7.2, "at": [20.0, 0.0]}]},
+]
+
 _LAYERS = Meta(
     min_length=1,
     max_length=100,
@@ -130,6 +152,7 @@ class LayeredSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="layered"):
             _BOX,
             (_HAND, N_("the hand of a clock: flat, of lines and arcs, for the laser")),
             (_RATCHET, N_("a ratchet wheel: two corners of one tooth, sixteen times")),
+            (_NUTS, N_("a plate with the pocket of a nut M4")),
         ),
     ]
 
@@ -146,7 +169,7 @@ class Layered(Kind[LayeredSpec, "Layers"]):
 
         made, places = [], dict[str, _Spot]()
         for number, table in enumerate(keys.layers, 1):
-            if not (table.circles or table.polygons or table.slots or table.outlines):
+            if not any(getattr(table, key) for key in _CONTOURS):
                 raise ParameterError(f"layers[{number}]", None, "layer_of_nothing")
             made.append(Layer(table.thickness, tuple(_contours(table, f"layers[{number}]"))))
             names = (f"{key}[{k}]" for key in _CONTOURS for k, _ in enumerate(getattr(table, key), 1))
@@ -224,23 +247,14 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
     """
     from geometry.curves.line_arc import Arc
     from geometry.solids.layers import Contour
-    from geometry.solids.plate import belt, meets_itself, rounded
+    from geometry.solids.plate import belt
 
     found = []
     for circle in table.circles:
         centre, radius = complex(*circle.at), circle.diameter / 2
         found.append(Contour((Arc(centre, radius, 0.0, math.pi), Arc(centre, radius, math.pi, math.pi))))
-    for number, polygon in enumerate(table.polygons, 1):
-        corners = [complex(*p) for p in polygon.points]
-        area = sum((a.conjugate() * b).imag for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
-        ordered = corners if area > 0 else corners[::-1]
-        try:
-            found.append(Contour(rounded([(p, polygon.corner_radius) for p in ordered])))
-        except (GeometryError, ZeroDivisionError) as error:
-            name = f"{place}.polygons[{number}].corner_radius"
-            raise ParameterError(name, polygon.corner_radius, "roundings_meet") from error
-        if meets_itself(found[-1].edges):
-            raise ParameterError(f"{place}.polygons[{number}].points", len(corners), "boundary_crosses_itself")
+    found += [_polygon(one, f"{place}.polygons[{number}]") for number, one in enumerate(table.polygons, 1)]
+    found += [_polygon(one.polygon(), f"{place}.hexagons[{number}]") for number, one in enumerate(table.hexagons, 1)]
     for number, slot in enumerate(table.slots, 1):
         if slot.start == slot.end:
             raise ParameterError(f"{place}.slots[{number}].end", list(slot.end), "slot_ends_at_start")
@@ -249,6 +263,29 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
     for number, outline in enumerate(table.outlines, 1):
         found.append(_outline(outline, f"{place}.outlines[{number}]"))
     return found
+
+
+def _polygon(polygon: PolygonTable, place: str) -> Contour:
+    """A polygon as a contour.
+
+    Raises
+    ------
+    ParameterError
+        Roundings that meet, or edges.
+    """
+    from geometry.solids.layers import Contour
+    from geometry.solids.plate import meets_itself, rounded
+
+    corners = [complex(*p) for p in polygon.points]
+    area = sum((a.conjugate() * b).imag for a, b in zip(corners, [*corners[1:], corners[0]], strict=True))
+    ordered = corners if area > 0 else corners[::-1]
+    try:
+        made = Contour(rounded([(p, polygon.corner_radius) for p in ordered]))
+    except (GeometryError, ZeroDivisionError) as error:
+        raise ParameterError(f"{place}.corner_radius", polygon.corner_radius, "roundings_meet") from error
+    if meets_itself(made.edges):
+        raise ParameterError(f"{place}.points", len(corners), "boundary_crosses_itself")
+    return made
 
 
 def _outline(outline: OutlineTable, place: str) -> Contour:

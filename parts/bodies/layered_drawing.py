@@ -115,7 +115,9 @@ def _across(
 ) -> View:  # fmt: skip
     """The section across a layer, seen from above, with the sizes of what is not ``told`` yet, which is then."""
     known: list[object] = [] if told is None else told
-    tables: list[_Table] = [*table.circles, *table.polygons, *table.slots, *table.outlines]
+    tables: list[_Table] = [
+        *table.circles, *table.polygons, *(one.polygon() for one in table.hexagons), *table.slots, *table.outlines
+    ]  # fmt: skip
     new = [(one, contour) for one, contour in zip(tables, contours, strict=True) if one not in known]
     known += [one for one, _ in new]
     low_x, high_x, low_y, high_y = (f(c.box[k] for c in contours) for k, f in enumerate((min, max, min, max)))

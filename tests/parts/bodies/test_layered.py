@@ -59,6 +59,60 @@ def test_a_volume_is_that_of_its_layers() -> None:
     assert mesh.volume == pytest.approx(wanted, rel=2e-4)
 
 
+@pytest.mark.parametrize("angle", [90.0, 0.0, 17.0])
+def test_a_hexagon_of_a_layer_takes_its_nut(angle: float, tmp_path: Path) -> None:
+    """A pocket of 7.2 mm, sqrt(3) / 2 of its square: in the STL a nut of 7.18 goes in, one of 7.22 does not."""
+    import manifold3d
+    import trimesh
+
+    nut = {"across_flats": 7.2, "at": [5.0, 3.0], "angle_deg": angle}
+    layers: list[Keys] = [
+        {"thickness": 3.0, "polygons": [SQUARE]},
+        {"thickness": 4.0, "polygons": [SQUARE], "hexagons": [nut]},
+    ]
+    part = made(layers)
+    assert part.made_by.moments(part.body(0.0)).volume == pytest.approx(
+        7 * 2400 - 4 * math.sqrt(3) / 2 * 7.2**2, rel=1e-12
+    )
+    square = "polygons = [{ points = [[-30, -20], [30, -20], [30, 20], [-30, 20]] }]"
+    (tmp_path / "trap.toml").write_text(f"""[parts.trap]
+kind = "layered"
+[[parts.trap.layers]]
+thickness = 3.0
+{square}
+[[parts.trap.layers]]
+thickness = 4.0
+{square}
+hexagons = [{{ across_flats = 7.2, at = [5.0, 3.0], angle_deg = {angle} }}]
+[[exports]]
+format = "stl"
+[[exports]]
+format = "step"
+[[exports]]
+format = "svg"
+purpose = "part"
+""")
+    assert main(["build", str(tmp_path / "trap.toml"), "--out", str(tmp_path)]) == 0
+    mesh = trimesh.load(tmp_path / "trap" / "trap.stl")
+    assert isinstance(mesh, trimesh.Trimesh)
+    trap = manifold3d.Manifold(manifold3d.Mesh(mesh.vertices.astype("f4"), mesh.faces.astype("u4")))
+
+    def struck(across: float) -> float:
+        # six sides, the first corner on +x: its flats stand at 30, 90 ... degrees
+        rod = manifold3d.Manifold.cylinder(10.0, across / math.sqrt(3), circular_segments=6)
+        return float((trap ^ rod.rotate((0.0, 0.0, angle - 30.0)).translate((5.0, 3.0, 3.0))).volume())
+
+    assert struck(7.18) < 1e-6
+    assert struck(7.22) > 0.1
+
+
+def test_a_hexagon_that_crosses_a_circle_is_told_by_its_key() -> None:
+    layer: Keys = {"thickness": 3.0, "circles": [{"diameter": 30.0}], "hexagons": [{"across_flats": 29.0}]}
+    with pytest.raises(SceneError) as told:
+        made([layer])
+    assert "hexagons[1]" in str((told.value.key, told.value.numbers))
+
+
 def shown(number: int) -> Part:
     """The part that ``new`` shows in place of its own, by its number."""
     text = new_scene("layered")
