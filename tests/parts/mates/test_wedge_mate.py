@@ -149,7 +149,7 @@ def test_followers_placed_by_hand_are_held_against_their_travel(kind: str, side:
     assert not has_bad_verdict(good)
     assert good["mates"][0]["verdict"] == "contact"
     assert "drive_travel" in good["mates"][0]
-    assert "зсунута на 28 мм" in check_lines(good, "uk")[0]
+    assert "після зсуву на 28 мм" in check_lines(good, "uk")[0]
     for off in ((0.01, 0.0), (-0.01, 0.0), (0.0, 0.01)):
         assert has_bad_verdict(by_hand(*off)), off
 
