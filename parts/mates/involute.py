@@ -89,8 +89,7 @@ class GearMating(Toothed):
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch of the first gear, or of the pinion."""
-        found = self._mesh(phase_off, distance_off).contact(tolerance, self.face.overlap_ratio)
-        return found.along_normals(self.normal_share)
+        return self._mesh(phase_off, distance_off).contact(tolerance, self.face.overlap_ratio, self.normal_share)
 
     def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
         """Errors where the first turns counter-clockwise and clockwise; the second's arm on the line of action, mm."""

@@ -42,9 +42,13 @@ _ROUNDINGS = 8 * float(np.finfo(float).eps)
 
 
 class Gaps(NamedTuple):
-    """Least gap per group (n,), mm, the point it was found at in the first gear's frame, and both curves' indices."""
+    """Least gap per group (n,), mm, the point it was found at in the first gear's frame, and both curves' indices.
+
+    ``arm``: mm by which the line across the gap passes by the first gear's axis: of two flanks its base radius.
+    """
 
     gap: Real
+    arm: Real
     point: Complex
     first_index: Indices
     second_index: Indices
@@ -52,14 +56,17 @@ class Gaps(NamedTuple):
     @classmethod
     def unknown(cls, count: int) -> Gaps:
         """Nothing found yet."""
-        return cls(np.full(count, np.inf), np.zeros(count, complex), np.zeros(count, int), np.zeros(count, int))
+        none = np.zeros(count, int)
+        return cls(np.full(count, np.inf), np.zeros(count), np.zeros(count, complex), none, none.copy())
 
-    def keep(self, group: Indices, distance: Real, point: Complex, first: Indices, second: int | Indices) -> None:
+    def keep(
+        self, group: Indices, distance: Real, arm: Real, point: Complex, first: Indices, second: int | Indices
+    ) -> None:
         """Take the least candidate of each group where it is less than what is held."""
         fresh = np.flatnonzero(distance < self.gap[group])
         order = fresh[np.lexsort((distance[fresh], group[fresh]))]
         chosen = order[np.append(True, np.diff(group[order]) > 0)] if order.size else order
-        values = distance, point, first, np.broadcast_to(second, distance.shape)
+        values = distance, arm, point, first, np.broadcast_to(second, distance.shape)
         for table, value in zip(self, values, strict=True):
             table[group[chosen]] = value[chosen]
 
@@ -256,7 +263,8 @@ class LeastGap:
     ) -> _Ends:
         inner, turned = folded(points, rates, self.pitch)
         feet = self.first.feet(inner)
-        found.keep(copies.group[row], feet.distance, points, feet.curve_index, curve)
+        arm = np.abs((np.conj(inner) * feet.normal).imag)
+        found.keep(copies.group[row], feet.distance, arm, points, feet.curve_index, curve)
         foot = fold_images(points, self.pitch) * len(self.first.curves) + feet.curve_index
         return _Ends(t, points, feet.distance, (np.conj(feet.normal) * turned).real, foot)
 

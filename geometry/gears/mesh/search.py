@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geometry.base.record import Record, replace
+from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.far_teeth import Measured, promising_places
@@ -71,8 +71,8 @@ class PairContact(Record):
     along their face. CLEAR: otherwise, with ``touches`` telling whether there is contact at some drive angles.
     UNDECIDED: the search missed what the closed form for two involutes finds, or a number is not finite.
 
-    Gaps are those of one transverse section, unless taken ``along_normals``. ``side_gaps`` are the gap curves at the
-    lower and the upper sides of the first gear's teeth, ``gaps`` the lesser of both.
+    Gaps are at right angles to the flanks, of helical teeth too. ``side_gaps`` are the gap curves at the lower and the
+    upper sides of the first gear's teeth, ``gaps`` the lesser of both.
     """
 
     verdict: Verdict
@@ -87,19 +87,6 @@ class PairContact(Record):
     def touches(self) -> bool:
         """Whether the gears touch at some drive angle without overlap."""
         return self.verdict is Verdict.CONTACT or (self.verdict is Verdict.CLEAR and self.worst.gap <= self.tolerance)
-
-    def along_normals(self, share: float) -> PairContact:
-        """The gaps of helical teeth at right angles to their flanks: ``share`` of the section's, cos(beta_b).
-
-        As they are where what is nearest is no flank: tips and roots face each other in the section.
-        """
-        if not {Label.FLANK, Label.RELIEF}.intersection(self.worst.labels):
-            return self
-        lower, upper = (tuple(share * gap for gap in side) for side in self.side_gaps)
-        return replace(
-            self, gaps=tuple(share * gap for gap in self.gaps), side_gaps=(lower, upper),
-            worst=replace(self.worst, gap=share * self.worst.gap), greatest_gap=share * self.greatest_gap,
-        )  # fmt: skip
 
 
 def _bridged(mesh: MeshSearch, angles: Real, sides: Real, allowed: float, overlap_ratio: float) -> bool:
@@ -186,10 +173,13 @@ class MeshSearch:
         self.half = LeastGap(outlines[0], pitches[0], self.segments, module)
         self.first_teeth, self.second_teeth = self.teeth_in_reach()
 
-    def contact(self, tolerance: float | None = None, overlap_ratio: float = 0.0) -> PairContact:
+    def contact(
+        self, tolerance: float | None = None, overlap_ratio: float = 0.0, normal_share: float = 1.0
+    ) -> PairContact:
         """The exact gap over one pitch of the first gear; ``tolerance``: |gap| in mm that is contact, 1e-8 module.
 
-        ``overlap_ratio``: that of helical teeth, whose transverse section the mesh is: pitches that the face covers.
+        Of helical teeth, whose transverse section the mesh is: ``overlap_ratio``, pitches that the face covers, and
+        ``normal_share``, cos(beta_b), of a gap of flanks in the section that is left at right angles to them.
         """
         allowed = CONTACT_TOLERANCE * self.module if tolerance is None else tolerance
         angles = self.drive_angles()
@@ -214,7 +204,18 @@ class MeshSearch:
         verdict = Verdict.UNDECIDED if missed.any() else verdict_of(sides, allowed)
         if verdict is Verdict.CLEAR and overlap_ratio and _bridged(self, angles, sides, allowed, overlap_ratio):
             verdict = Verdict.CONTACT
-        return told_contact(verdict, allowed, angles, sides, self.place(angles, found))
+        if normal_share < 1:
+            sides = self._in_space(found, closed, normal_share)
+        return told_contact(verdict, allowed, angles, sides, self.place(angles, found._replace(gap=sides.ravel())))
+
+    def _in_space(self, found: Gaps, closed: Real, normal_share: float) -> Real:
+        """(n, 2) gaps of helical teeth, mm: helicoids lean out of the section by the arm of their normals.
+
+        Of flanks by tan(beta_b); these may be nearest where in the section something else is.
+        """
+        lean = math.sqrt(1 / normal_share**2 - 1) * found.arm / (self.arm * abs(self.rate))
+        flanks = np.where(closed > 0, normal_share * closed, np.inf)
+        return np.minimum((found.gap / np.hypot(1.0, lean)).reshape(-1, 2), flanks)
 
     def teeth_in_reach(self) -> tuple[int, int]:
         """Teeth of both bodies on either side of the line of centres that are looked at."""
@@ -461,11 +462,14 @@ class _Corners(Record):
         """Gaps of corners, mm, entered into what is found."""
         mesh = self.mesh
         local = self._points[column] * np.exp(1j * tooth * mesh.pitches[0])
-        feet = mesh.outlines[1].feet(
-            mesh.second_folded(*mesh.to_second(local, self.drive[angle], self.offset[angle]))[0]
-        )
+        at, off = self.drive[angle], self.offset[angle]
+        point = mesh.to_second(local, at, off)[0]
+        # how the first gear's turning moves it
+        inner, moved = mesh.second_folded(point, mesh.to_second((1 + 1j) * local, at, off)[0] - point)
+        feet = mesh.outlines[1].feet(inner)
+        arm = np.abs((np.conj(feet.normal) * moved).real)
         segment = np.repeat([self._segment(c) for c in mesh.outlines[0].convex_corners], 2)
-        self.found.keep(2 * angle + column % 2, feet.distance, local, segment[column], feet.curve_index)
+        self.found.keep(2 * angle + column % 2, feet.distance, arm, local, segment[column], feet.curve_index)
         return feet.distance
 
     def _segment(self, corner: complex) -> int:
