@@ -16,7 +16,7 @@ from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.texts import N_, Message, Text, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.keys.sheet import on_sheet
-from parts.scene.formats import FORMATS, OF_SCENES
+from parts.scene.formats import FORMATS, OF_SCENES, Form
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
@@ -100,6 +100,10 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     rods = {p for p, part in parts.items() if noted and part.stock is not None}
     unused = [f"parts.{p}" for p in parts if p not in used | rods]
     unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
+    # a name is engraved where a laser cuts; parts of an assembly have theirs for boards to come
+    engraved = {p for _, e in exports if e.kind.form is Form.ARCS for p in e.parts or parts}
+    unused += [f"parts.{p}.label" for p, part in parts.items()
+               if p in used - engraved and part.keys.label and f"parts.{p}" not in scene.origins]  # fmt: skip
     left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
     # exports of flat files that leave a solid out
     flat: list[str] = []

@@ -56,6 +56,9 @@ MISPLACED = (
     # a near spelling of its own table's, or another book's word, is told before other tables
     ("[parts.a]", "face_widht = 2.0", "did you mean face_width?"),
     ("[parts.a]", "thickness = 2.0", "did you mean face_width?"),
+    # a maker's words: letters lead the first one to the chamfer of the teeth's tips, the second nowhere
+    ("[parts.a]", "chamfer = 0.3", "did you mean face_chamfer?"),
+    ("[parts.a]", "elephant_foot = 0.3", "did you mean face_chamfer.below?"),
     ("[scene]", "kerf = 0.2", "scene.kerf = 0.2: kerf belongs to [defaults] or [[exports]]"),
     ("[scene]", "teeth = 20", "number_of_teeth belongs to [defaults] or [parts.NAME]"),
     ('kind = "external_gear_pair"', "module = 2.0", "is no key of a mate, but one of parts.a; write it there"),

@@ -109,6 +109,18 @@ def test_boards_and_beds_that_nothing_asks_for_and_parts_that_lie_on_none_are_to
     assert left(plan("plate", "dxf", text=text))[1:] == [("exports[1]: a, Slab", "lies on none of its beds", False)]
 
 
+def test_a_name_that_no_file_for_a_laser_engraves_is_told() -> None:
+    """The picture of the part shows it, its STL has none."""
+    text = PARTS.replace("[parts.a]\n", "[parts.a]\nlabel = true\n") + PAIR
+    assert text != PARTS + PAIR
+    untold = ("parts.a.label", "no export asks for it", False)
+    assert left(plan("stl", text=text)) == left(plan("drawing", text=text)) == [untold]
+    assert left(plan("dxf", "stl", text=text)) == []
+    assert untold not in left(plan("board", "stl", text=text + BOARD))
+    # nobody asked for the one that a recipe gives
+    assert left(plan("stl", text='[[assemblies]]\nkind = "gear_pair_model"\nteeth = [13, 21]\nmodule = 4.0\n')) == []
+
+
 def test_what_is_bought_lies_on_no_board_and_no_bed_unless_they_name_it() -> None:
     """A bearing by its standard is not to be printed, however it lies in the scene."""
     bought = PARTS.replace("[parts.b]\n", '[parts.b]\nstandard = "ISO 15"\n') + PAIR
