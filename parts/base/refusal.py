@@ -91,7 +91,8 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
         swapped = [name for name in near if sorted(name) == sorted(plain)]
         match = [] if word is None else swapped[:1] or difflib.get_close_matches(word, near, 1, least)
     if not match and word is not None:
-        match = [name for name in known if name.lower() == word.lower()]
+        begun = [name for name in known if name.startswith(f"{plain}_")]
+        match = [name for name in known if name.lower() == word.lower()] or (begun if len(begun) == 1 else [])
     return Nearest(match[0], "meant") if match else None
 
 

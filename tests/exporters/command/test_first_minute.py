@@ -229,7 +229,7 @@ def test_a_key_tells_its_own_meaning(capsys: pytest.CaptureFixture[str]) -> None
         ("spur beta=10", "helix_angle_deg"), ("gear-pair z1=20", "first.number_of_teeth"),
         ("gear-pair x2=0.5", "second.profile_shift_coefficient"),
         ("gear-pair aw=90", "working_centre_distance"),
-        ("worm z1=2", "number_of_starts"), ("worm q=10", "diameter_quotient"), ("bevel z2=40", "mate_number_of_teeth"),
+        ("worm friction=0.1", "friction_coefficient"), ("worm z1=2", "number_of_starts"), ("worm q=10", "diameter_quotient"), ("bevel z2=40", "mate_number_of_teeth"),
         ("bevel mate_teeth=40", "mate_number_of_teeth"),
         ("bevel beta=35", "spiral_angle_deg"), ("bevel helix_angle_deg=35", "spiral_angle_deg"),
         ("planetary u=5", "ratio"), ("lever omega=10", "speed"), ("cam e=5", "follower_offset"),
