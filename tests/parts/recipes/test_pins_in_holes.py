@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from itertools import combinations
+from pathlib import Path
 from typing import Any
 
 import pytest
 import shapely
 
+from exporters.command.cli import main
 from geometry.base.record import Record, replace
 from parts.scene.load import load_scene, scene_from_dict
 from tests.parts.recipes.test_power_table import moved, placed, polygon
@@ -100,3 +102,21 @@ def test_a_pin_beside_its_hole_one_that_is_thick_and_one_that_ends_in_the_air_ar
     for shape, higher in ((moved(pin.shape, 1.0 + 0j, 0.0), 0.0), (pin.shape.buffer(1.0), 0.0), (pin.shape, 2.0)):
         other = replace(pin, shape=shape, high=pin.high + higher)
         assert faults([*found[:place], other, *found[place + 1 :]]) != []
+
+
+def test_a_printed_dowel_has_the_clearance_that_the_notes_tell(tmp_path: Path) -> None:
+    """0.1 mm across, of which chords of the STL take a fifth at most: of the widest dowel, of the narrowest hole."""
+    import manifold3d
+    import trimesh
+
+    assert main(["build", "power_table_print", "--part", "dowel", "--part", "back", "--format", "stl",
+                 "--out", str(tmp_path)]) == 0  # fmt: skip
+    dowel, back = (trimesh.load_mesh(tmp_path / "power_table_print" / f"{name}.stl") for name in ("dowel", "back"))
+    width = 2 * max(math.hypot(x, y) for x, y, _ in dowel.vertices)
+    body = manifold3d.Manifold(manifold3d.Mesh(back.vertices.astype("f4"), back.faces.astype("u4")))
+    rings = [shapely.LinearRing(loop) for loop in body.slice(back.bounds[:, 2].mean()).to_polygons()]
+    holes = [2 * shapely.Polygon(ring).centroid.distance(ring) for ring in rings]
+    fits = [hole - width for hole in holes if abs(hole - width) < 0.5]
+    assert len(fits) == 4
+    assert min(fits) > 0.08
+    assert max(fits) < 0.1 + 1e-5
