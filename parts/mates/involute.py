@@ -1,7 +1,7 @@
 """The mates of involute gears: two external ones, a pinion in its ring, a gear on its rack.
 
 Each sets distance and phase, and thins both gears for its backlash; the external pair shortens tips, the internal one
-those that would reach a fillet.
+those that would reach a fillet or a root.
 """
 
 from __future__ import annotations
@@ -500,11 +500,11 @@ class InternalGearPair(
         made = super().mating(keys, first, second)
         one, two = (replace(e, thing=replace(e.thing, given_tip_diameter=_given(e))) for e in (first, second))
         alone = self.made(keys, one, two, keys.working_centre_distance).pair
-        return replace(made, alone=alone if any(alone.tips_off_fillets()) else None)
+        return replace(made, alone=alone if any(alone.tips_off_roots()) else None)
 
     def tips(self, keys: InternalGearPairSpec, first: End[Any], second: End[Any]) -> tuple[float | None, float | None]:
-        """Those that keep off the mate's fillet; a given tip diameter stays."""
-        pinion, ring = self._reaching(keys, first, second).pair.tips_off_fillets()
+        """Those that keep off the mate's fillet and root; a given tip diameter stays."""
+        pinion, ring = self._reaching(keys, first, second).pair.tips_off_roots()
         return (ring, pinion) if first.kind == "ring_gear" else (pinion, ring)
 
 

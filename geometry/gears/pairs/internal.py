@@ -17,8 +17,8 @@ from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_tooth import RingSide, ring_side
 from geometry.gears.teeth.spur import SpurGear
 
-# modules by which tips that yield keep off where they would touch a fillet, and mm that are rounding
-_OFF_FILLET, _SAME = 0.005, 1e-9
+# modules by which tips that yield keep off where they would touch a fillet or a root, and mm that are rounding
+_OFF_ROOT, _SAME = 0.005, 1e-9
 
 
 class InternalPair(InvolutePair[RingGear, RingSide], dict=True):
@@ -48,16 +48,20 @@ class InternalPair(InvolutePair[RingGear, RingSide], dict=True):
         most = math.hypot(self.pinion.base_radius, max(forms[1] - line, 0.0))
         return 2 * most, 2 * math.hypot(self.ring.base_radius, line + forms[0])
 
-    def tips_off_fillets(self) -> tuple[float | None, float | None]:
-        """Tip radii, mm, that keep off the mate's fillet where those of the pair reach it; None: as they are.
+    def tips_off_roots(self) -> tuple[float | None, float | None]:
+        """Tip radii, mm, that keep off the mate's fillet and root where those of the pair reach it; None: as they are.
 
-        Given tip diameters stay. Others lie ``_OFF_FILLET`` off: corners run on beyond the end of the involute.
+        Given tip diameters stay. Others lie ``_OFF_ROOT`` off: corners run on beyond the end of the involute.
         """
-        off, (most, least) = _OFF_FILLET * self.module, self.tip_limits
+        off, (most, least), distance = _OFF_ROOT * self.module, self.tip_limits, self.working_centre_distance
+        most, least = (
+            min(most / 2, self.ring.root_radius - distance),
+            max(least / 2, distance + self.pinion.root_radius),
+        )
         pinion, ring = (g.given_tip_diameter is None and self.effective_contact_ratio > 0 for g in self.gears)
         return (
-            math.floor(1e4 * (most / 2 - off)) / 1e4 if pinion and self.pinion.tip_radius > most / 2 + _SAME else None,
-            math.ceil(1e4 * (least / 2 + off)) / 1e4 if ring and self.ring.tip_radius < least / 2 - _SAME else None,
+            math.floor(1e4 * (most - off)) / 1e4 if pinion and self.pinion.tip_radius > most + _SAME else None,
+            math.ceil(1e4 * (least + off)) / 1e4 if ring and self.ring.tip_radius < least - _SAME else None,
         )
 
     def pinion_rotation(self, ring_rotation: float, direction: float = 0.0) -> float:

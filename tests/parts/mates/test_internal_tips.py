@@ -1,4 +1,4 @@
-"""Tips of a pinion and its ring that would reach a fillet are made shorter, unless given: by polygons, turned."""
+"""Tips of a pinion and its ring that would reach a fillet or a root are shortened, unless given: by turned polygons."""
 
 import json
 from pathlib import Path
@@ -23,6 +23,9 @@ PAIRS = [
     (26, 36, -0.3, -0.3, 17.5, 0.0),
     (40, 55, 0.5, 0.8, 20.0, 15.0),
     (24, 39, -0.3, -0.3, 20.0, 0.0),
+    # a much shifted pinion's root
+    (14, 40, 0.88, 0.96, 14.5, 0.0),
+    (13, 29, 0.73, 0.92, 14.5, 0.0),
 ]
 TURNS = 16
 
@@ -72,7 +75,7 @@ def deepest(raw: dict[str, Any]) -> tuple[float, dict[str, Part]]:
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=str)
-def test_default_tips_keep_off_the_fillets_and_given_ones_stay(
+def test_default_tips_keep_off_fillets_and_roots_and_given_ones_stay(
     pair: tuple[int, int, float, float, float, float],
 ) -> None:
     free, parts = deepest(scene_of(pair))
