@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import takewhile
 from pathlib import Path
 from textwrap import wrap
+from types import MappingProxyType
 from typing import Any
 
 from msgspec import Meta, Struct
@@ -82,6 +83,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
     if made_from is not None:
         note = told.text("the part that the one below is made for")
         owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
+    keys = [f for f in fields_of(ExportSpec) if f.encode_name not in SHEET_KEYS]
     lines = [
         *_head(told),
         *owner,
@@ -90,7 +92,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         *_keys(own_first(KINDS[kind].keys), told, {"of": _SOURCE}),
         "",
         "[[exports]]",
-        *_keys([f for f in fields_of(ExportSpec) if f.encode_name not in SHEET_KEYS], told, {"format": formats[0]}),
+        *_keys(keys, told, {"format": formats[0]}, {"parts": [_called(kind)]}),
         *(line for one in formats[1:] for line in ("", "[[exports]]", f'format = "{one}"')),
         *_several(kind, told),
     ]
@@ -267,14 +269,22 @@ def plain_scene(text: str, source: str) -> str:
     return "\n".join(lines[1:]) + "\n"
 
 
-def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | None = None) -> Iterator[str]:
-    """One line a key; keys with a default stand commented out, but for ``names``: those that the scene itself gives."""
+def _keys(
+    keys: Iterable[FieldInfo],
+    told: Words,
+    names: Mapping[str, str] | None = None,
+    shown: Mapping[str, object] = MappingProxyType({}),
+) -> Iterator[str]:
+    """One line a key; keys with a default stand commented out, but for ``names``: those that the scene itself gives.
+
+    ``shown``: values to be seen behind the # in place of defaults and examples.
+    """
     for field in keys:
         name, meta = field.encode_name, example_of(field.type)
         marks = _marks(meta)
         given = names is not None and name in names
         set_here = given or field.required or "start" in marks
-        value = _toml(names[name]) if names and given else _value(field, meta)
+        value = _toml(names[name]) if names and given else _toml(shown[name]) if name in shown else _value(field, meta)
         code, text = f"{'' if set_here else '# '}{name} = {value}", told.say(described(field.type) or "")
         yield f"{code:<44} # {text}" if text else code
         others = [(_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]

@@ -144,7 +144,7 @@ def _html_section(section: Section, told: Words) -> str:
             f"<td>{source}</td>",
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
-    return f"<h2>{html.escape(told.say(section.title))}</h2>\n<table>\n" + "\n".join(rows) + "\n</table>"
+    return f"<h2>{html.escape(told.phrase(told.say(section.title)))}</h2>\n<table>\n" + "\n".join(rows) + "\n</table>"
 
 
 def _is_number(step: Step) -> bool:

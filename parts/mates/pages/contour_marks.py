@@ -13,12 +13,13 @@ from geometry.gears.shifts.external import BlockingContour
 from geometry.gears.shifts.finder import AnyShiftPair, Proposal
 from geometry.gears.shifts.internal_shifts import InternalShiftPair
 from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.limits import Margin
 from parts.base.refusal import SceneError
-from parts.base.texts import ENGLISH, Message, words
+from parts.base.texts import ENGLISH, Message, listed, message, words
 from parts.gears.spur_gear.page import section_data
 from parts.mates.pages.pair_keys import ChoiceKeys
 from parts.pages.contact_steps import face_steps
-from parts.pages.contour_picture import ContourPicture
+from parts.pages.contour_picture import ContourPicture, line_name
 from parts.pages.inputs import PLACE
 from parts.pages.page import Printed, Sheet
 
@@ -42,6 +43,18 @@ def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = END
         raise SceneError(PLACE, f"{topic}.{key}", name, "file_ends_in", works, known=endings)
     if not file.parent.is_dir():
         raise SceneError(PLACE, f"{topic}.{key}", name, "no_such_folder", Nearest(file.name))
+
+
+def margins_told(broken: Sequence[Margin]) -> Message:
+    """The lines of a contour, or conditions, that are not kept; how far, where that is a number."""
+    return listed(
+        [
+            line_name(m.name)
+            if math.isnan(m.margin)
+            else message("{line} ({margin:.4g})", line=line_name(m.name), margin=m.margin)
+            for m in broken
+        ]
+    )
 
 
 def show_given(page: Sheet, keys: ChoiceKeys, pair: AnyShiftPair, rack: BasicRack) -> str:

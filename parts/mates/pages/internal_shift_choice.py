@@ -28,16 +28,15 @@ from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_cutter, transverse_rack
 from parts.base.refusal import SceneError
-from parts.base.texts import N_, Message, counted, listed, message
+from parts.base.texts import N_, Message, counted, message
 from parts.gears.ring_gear.part import RingGearSpec, RoundedRootTable, settled_section, tip_finding
 from parts.gears.spur_gear.part import basic_rack_of
 from parts.keys.base import in_modules
 from parts.keys.cutter import CutterTable, cutter_of
 from parts.keys.helix import in_keys
-from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices, show_given
+from parts.mates.pages.contour_marks import Choice, checked_picture, margins_told, show_choices, show_given
 from parts.mates.pages.pair_keys import ChoiceKeys, section_table
 from parts.pages.contact_steps import working_steps
-from parts.pages.contour_picture import line_name
 from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -321,10 +320,4 @@ def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, ch
     broken = [m for m in found.values() if not m.margin >= -1e-9]
     if not broken:
         return
-    margins_told = [
-        line_name(m.name)
-        if math.isnan(m.margin)
-        else message("{line} ({margin:.4g})", line=line_name(m.name), margin=m.margin)
-        for m in broken
-    ]
-    page.note("{number}: outside the contour: {margins}", number=number, margins=listed(margins_told))
+    page.note("{number}: outside the contour: {margins}", number=number, margins=margins_told(broken))

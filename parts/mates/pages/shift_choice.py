@@ -32,7 +32,7 @@ from parts.base.texts import N_, message
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
-from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices, show_given
+from parts.mates.pages.contour_marks import Choice, checked_picture, margins_told, show_choices, show_given
 from parts.mates.pages.internal_shift_choice import refusals
 from parts.mates.pages.pair_keys import GEARS, ChoiceKeys, kind_of_pair, section_table
 from parts.pages.contact_steps import working_steps
@@ -222,5 +222,4 @@ def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, cho
     page.both("root_sliding", found.root_sliding, "", "ISO 21771")
     broken = [m for m in margins(pair, wish, found.first, found.second) if m.margin < -1e-9]
     if broken:
-        names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)
-        page.note("{number}: outside the contour: {margins}", number=number, margins=names)
+        page.note("{number}: outside the contour: {margins}", number=number, margins=margins_told(broken))
