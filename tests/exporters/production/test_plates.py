@@ -68,7 +68,8 @@ def meshes(file: Path) -> dict[str, trimesh.Trimesh]:
         objects[number] = (np.array(corners), np.array(faces))
     found = {}
     for item in re.findall(r"<item [^>]*>", text):
-        number, name, place = (re.search(f'{key}="(.*?)"', item)[1] for key in ("objectid", "partnumber", "transform"))  # type: ignore[index]
+        said = dict(re.findall(r'(\w+)="(.*?)"', item))
+        number, name, place = said["objectid"], said["partnumber"], said["transform"]
         rows = np.array([float(x) for x in place.split()]).reshape(4, 3)
         corners, faces = objects[number]
         found[name] = trimesh.Trimesh(corners @ rows[:3] + rows[3], faces, process=False)

@@ -108,7 +108,7 @@ def faults(file: Path) -> list[str]:
 
 def sheets_of(name: str, language: str, **export: Any) -> Any:
     scene = load_scene(name)
-    scene.scene.language = language  # type: ignore[assignment]
+    scene.scene.language = language
     sheets = [e for e in scene.exports if e.format == "sheet" or (e.format == "pdf" and e.purpose != "model")]
     scene.exports = [msgspec.structs.replace(e, **{"format": "sheet", "tolerance": 1e-2, **export}) for e in sheets]
     return [job for job in plan_build(scene, name, [], []).sheets if job.path.endswith(".svg")]

@@ -33,7 +33,7 @@ NAMES = {"O", "P", "N", "a", "b", "d", "d'", "T", "α"}
 
 def scene_of(name: str, language: str = "en") -> Any:
     scene = load_scene(name)
-    scene.scene.language = language  # type: ignore[assignment]
+    scene.scene.language = language
     return scene
 
 
