@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace as with_keys
@@ -71,13 +71,7 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
 
 
 def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> Plan:
-    for name in only_parts:
-        if name not in scene.parts:
-            known = list(scene.parts)
-            raise SceneError(source, "--part", name, "no_such_part", meant(name, known), known=known)
-    for name in only_formats:
-        if name not in FORMATS:
-            raise SceneError(source, "--format", name, "unknown_format", meant(name, FORMATS), known=list(FORMATS))
+    _check_known(scene, source, only_parts, only_formats)
     parts, matings = make_parts(scene, source)
     placing = place(scene.instances, scene.drives, parts, matings, source)
     if scene.checks.interference and len(placing.instances) > 1:
@@ -86,104 +80,191 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         check_solids(parts, source)
         check_workspace(scene.checks.workspace, placing, source)
     exports = _wanted_exports(scene, source, only_formats)
-    left_out = [
-        LeftOut(f"exports[{i + 1}]", message("format {format} was not asked for", format=e.format), as_asked=True)
-        for i, e in enumerate(scene.exports)
-        if only_formats and e.format not in only_formats
-    ]
-    unasked = [p for p in parts if only_parts and p not in only_parts]
-    left_out += [LeftOut(f"parts.{p}", N_("was not asked for"), as_asked=True) for p in unasked]
+    planning = _Planning(scene, source, parts, placing, exports, only_parts)
+    planning.left_out += _unasked(scene, parts, exports, only_parts, only_formats, planning.rods)
+    for where, export in exports:
+        planning.add(where, export)
+    return planning.plan(only_formats)
+
+
+def _check_known(scene: SceneFile, source: str, only_parts: list[str], only_formats: list[str]) -> None:
+    """Refuse parts and formats of the command line that there are not."""
+    for option, asked, known, code in (
+        ("--part", only_parts, list(scene.parts), "no_such_part"),
+        ("--format", only_formats, list(FORMATS), "unknown_format"),
+    ):
+        for name in asked:
+            if name not in known:
+                raise SceneError(source, option, name, code, meant(name, known), known=known)
+
+
+def _unasked(
+    scene: SceneFile, parts: dict[str, Part], exports: list[tuple[str, ExportSpec]], only_parts: list[str],
+    only_formats: list[str], rods: Collection[str],
+) -> Iterator[LeftOut]:  # fmt: skip
+    """What of a scene no file is asked of."""
+    for number, one in enumerate(scene.exports, 1):
+        if only_formats and one.format not in only_formats:
+            why = message("format {format} was not asked for", format=one.format)
+            yield LeftOut(f"exports[{number}]", why, as_asked=True)
+    for name in parts:
+        if only_parts and name not in only_parts:
+            yield LeftOut(f"parts.{name}", N_("was not asked for"), as_asked=True)
     used = {p for _, e in exports for p in e.parts or parts}
     purposes = {e.purpose for _, e in exports}
-    noted = scene.scene.notes or scene.steps or purposes & {*PURPOSES_LAID.values()}
-    # the notes tell how long they are to be cut
-    rods = {p for p, part in parts.items() if noted and part.stock is not None}
-    unused = [f"parts.{p}" for p in parts if p not in used | rods]
-    unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
     # a name is engraved where a laser cuts; parts of an assembly have theirs for boards to come
     engraved = {p for _, e in exports if e.kind.form is Form.ARCS for p in e.parts or parts}
+    unused = [f"parts.{p}" for p in parts if p not in used and p not in rods]
+    unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
     unused += [f"parts.{p}.label" for p, part in parts.items()
                if p in used - engraved and part.keys.label and f"parts.{p}" not in scene.origins]  # fmt: skip
-    left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
-    # exports of flat files that leave a solid out
-    flat: list[str] = []
-    # and those that show several parts where one alone is asked for
-    of_several: list[str] = []
-    jobs: list[Job] = []
-    assemblies: list[AssemblyJob | BoardJob] = []
-    sheets: list[SheetJob | Film | ListJob] = []
-    layouts: dict[object, list[Any]] = {}
-    taken: dict[str, Text] = {f"{part}.preview.svg".lower(): Message(N_("the preview of the part")) for part in parts}
-    for where, export in exports:
-        if only_parts and (export.assembly or _of_several(export)):
+    yield from (LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused)
+
+
+class _Planning:
+    """A plan in the making: each export adds its files, or tells why there is none."""
+
+    def __init__(
+        self, scene: SceneFile, source: str, parts: dict[str, Part], placing: Placing,
+        exports: list[tuple[str, ExportSpec]], only_parts: list[str],
+    ) -> None:  # fmt: skip
+        self.scene, self.source, self.parts, self.placing, self.only_parts = scene, source, parts, placing, only_parts
+        self.exports = [export for _, export in exports]
+        self.left_out: list[LeftOut] = []
+        self.jobs: list[Job] = []
+        self.assemblies: list[AssemblyJob | BoardJob] = []
+        self.sheets: list[SheetJob | Film | ListJob] = []
+        # exports of flat files that leave a solid out, and formats that show several parts where one alone is asked for
+        self._flat: list[str] = []
+        self._of_several: list[str] = []
+        self._layouts: dict[object, list[Any]] = {}
+        preview = Message(N_("the preview of the part"))
+        self._taken: dict[str, Text] = {f"{part}.preview.svg".lower(): preview for part in parts}
+        noted = scene.scene.notes or scene.steps or {e.purpose for e in self.exports} & {*PURPOSES_LAID.values()}
+        # the notes tell how long they are to be cut
+        self.rods = {p for p, part in parts.items() if noted and part.stock is not None}
+
+    def plan(self, only_formats: list[str]) -> Plan:
+        """All that was added; nothing at all is refused where files were asked for that none of the parts can have."""
+        if not (self.jobs or self.assemblies or self.sheets):
+            if self._flat:
+                key = "--format" if only_formats else f"{self._flat[0]}.format"
+                asked = ", ".join(dict.fromkeys(e.format for e in self.exports))
+                raise SceneError(self.source, key, asked, "nothing_flat")
+            if only_formats and self._of_several:
+                asked = ", ".join(dict.fromkeys(self._of_several))
+                raise SceneError(self.source, "--format", asked, "nothing_of_part_alone")
+        return Plan(
+            self.source, self.scene, self.parts, self.placing, tuple(self.jobs), tuple(self.assemblies),
+            tuple(self.left_out), tuple(self.sheets),
+        )  # fmt: skip
+
+    def add(self, where: str, export: ExportSpec) -> None:
+        """The files of an export."""
+        if self.only_parts and (export.assembly or _of_several(export)):
             alone = N_("an assembly of all its parts was not asked for")
             why = alone if export.assembly else N_("a sheet of several parts was not asked for")
-            left_out.append(LeftOut(where, why))
-            of_several.append(export.format)
-            continue
-        asked = Request(scene, placing, parts, export, where, source)
+            self.left_out.append(LeftOut(where, why))
+            self._of_several.append(export.format)
+            return
+        asked = Request(self.scene, self.placing, self.parts, export, where, self.source)
         if on_sheet(export.format, export.purpose):
-            bodies = [p for p in asked.wanted if export.purpose == "model" and not is_flat(parts[p])]
-            if bodies and export.parts:
+            self._draw(asked)
+        elif export.is_laid:
+            self._lay(asked)
+        elif export.format in OF_SCENES:
+            self.sheets.append(_of_scene(asked))
+            self._take(self.sheets[-1].path, where)
+        elif export.assembly:
+            self._assemble(asked)
+        else:
+            self.jobs += self._made(asked)
+
+    def _draw(self, asked: Request) -> None:
+        """Sheets; of paper models those parts are left out that are not flat."""
+        if asked.export.purpose == "model":
+            bodies = [p for p in asked.wanted if not is_flat(self.parts[p])]
+            if bodies and asked.export.parts:
                 raise asked.refused("parts", bodies[0], "no_flat_outline")
-            left_out += [_no_outline(where, p) for p in bodies]
-            flat += [where] * len(bodies)
+            for body in bodies:
+                self._leave_body(asked.where, body)
             # no rod is cut out of paper
-            told = rods if export.purpose == "model" and not export.parts else set[str]()
+            told = set[str]() if asked.export.parts else self.rods
             if bodies or told:
                 kept = [p for p in asked.wanted if p not in bodies and p not in told]
-                asked = replace(asked, export=with_keys(export, parts=kept or [p for p in parts if p not in bodies]))
-            sheets += _sheets(replace(asked, export=_of_cams(asked.export, parts, only_parts)), taken)
-            continue
-        if export.is_laid:
-            laid = _laid(asked, layouts)
-            for one in laid:
-                _take(one.path, where, taken, source)
-            assemblies += laid
-            lying = {m.part.id for one in laid for m in one.members}
-            over = [parts[p] for p in asked.wanted if p not in lying and (p not in rods or export.parts)]
-            on_none = _ON_NO_BOARD if export.purpose == "board" else N_("lies on none of its beds")
-            for bought, why in ((False, on_none), (True, N_("is bought by its standard"))):
-                if names := ", ".join(part.title or part.id for part in over if part.is_bought == bought):
-                    left_out.append(LeftOut(f"{where}: {names}", why))
-            continue
-        if export.format in OF_SCENES:
-            sheets.append(_of_scene(asked))
-            _take(sheets[-1].path, where, taken, source)
-            continue
-        if export.pitch_curve and not any(parts[p].pitch_curve for p in asked.wanted):
+                kept = kept or [p for p in self.parts if p not in bodies]
+                asked = replace(asked, export=with_keys(asked.export, parts=kept))
+        asked = replace(asked, export=_of_cams(asked.export, self.parts, self.only_parts))
+        if asked.export.parts != []:
+            from exporters.production.sheets import sheet_jobs
+
+            found = sheet_jobs(asked)
+            self._take_all(found, asked.where)
+            self.sheets += found
+
+    def _lay(self, asked: Request) -> None:
+        """Boards or beds, and the parts that lie on none."""
+        laid = _laid(asked, self._layouts)
+        self._take_all(laid, asked.where)
+        self.assemblies += laid
+        lying = {m.part.id for one in laid for m in one.members}
+        over = [self.parts[p] for p in asked.wanted if p not in lying and (p not in self.rods or asked.export.parts)]
+        on_none = _ON_NO_BOARD if asked.export.purpose == "board" else N_("lies on none of its beds")
+        for bought, why in ((False, on_none), (True, N_("is bought by its standard"))):
+            if names := ", ".join(part.title or part.id for part in over if part.is_bought == bought):
+                self.left_out.append(LeftOut(f"{asked.where}: {names}", why))
+
+    def _assemble(self, asked: Request) -> None:
+        """One file of all instances in their places."""
+        members = self._made(asked)
+        path = _assembly_path(self.scene, asked.export, self.exports)
+        self._take(path, asked.where)
+        stand = tuple(i for i in self.placing.instances if i.part in asked.wanted)
+        name = assembly_name(self.scene.name)
+        self.assemblies.append(AssemblyJob(name, asked.export, tuple(members), stand, path, asked.where))
+
+    def _made(self, asked: Request) -> list[Job]:
+        """A file of each part that is asked for, or a member of their assembly."""
+        export = asked.export
+        if export.pitch_curve and not any(self.parts[p].pitch_curve for p in asked.wanted):
             raise asked.refused("pitch_curve", True, "no_pitch_curve", REMOVED)
-        made = []
-        for part_id in asked.wanted:
-            if only_parts and part_id not in only_parts:
+        made: list[Job] = []
+        for name in asked.wanted:
+            if self.only_parts and name not in self.only_parts:
                 continue
-            if not (export.parts or export.kind.is_solid or is_flat(parts[part_id])):
-                left_out.append(_no_outline(where, part_id))
-                flat.append(where)
+            if not (export.parts or export.kind.is_solid or is_flat(self.parts[name])):
+                self._leave_body(asked.where, name)
                 continue
-            path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
-            _take(path, where, taken, source)
+            path = "" if export.assembly else _file_name(name, export, self.exports)
+            self._take(path, asked.where)
             try:
-                made.append(asked.job(parts[part_id], path))
+                made.append(asked.job(self.parts[name], path))
             except SceneError as refusal:
-                others = [p for p in asked.wanted if not parts[p].made_by.unmoved]
-                if refusal.code != "of_part" or not others or part_id in others:
+                others = [p for p in asked.wanted if not self.parts[p].made_by.unmoved]
+                if refusal.code != "of_part" or not others or name in others:
                     raise
-                numbers = {**refusal.numbers, "others": [format_value(p) for p in others]}
-                raise SceneError(source, refusal.key, refusal.value, "of_part_alone", None, "", **numbers) from refusal
-        if not export.assembly:
-            jobs += made
-        else:
-            path = _assembly_path(scene, export, [e for _, e in exports])
-            _take(path, where, taken, source)
-            stand = tuple(i for i in placing.instances if i.part in asked.wanted)
-            assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
-    if flat and not (jobs or assemblies or sheets):
-        key = "--format" if only_formats else f"{flat[0]}.format"
-        raise SceneError(source, key, ", ".join(dict.fromkeys(e.format for _, e in exports)), "nothing_flat")
-    if only_formats and of_several and not (jobs or assemblies or sheets):
-        raise SceneError(source, "--format", ", ".join(dict.fromkeys(of_several)), "nothing_of_part_alone")
-    return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
+                told = {**refusal.numbers, "others": [format_value(p) for p in others]}
+                raise SceneError(
+                    self.source, refusal.key, refusal.value, "of_part_alone", None, "", **told
+                ) from refusal
+        return made
+
+    def _leave_body(self, where: str, part: str) -> None:
+        """A part that flat files cannot hold."""
+        self.left_out.append(LeftOut(where, message(N_("{part} has no flat outline"), part=part)))
+        self._flat.append(where)
+
+    def _take_all(self, files: Iterable[FileJob], where: str) -> None:
+        for one in files:
+            self._take(one.path, where)
+
+    def _take(self, path: str, where: str) -> None:
+        """Note the name of a file; two exports into one file are refused."""
+        if not path:
+            return
+        if path.lower() in self._taken:
+            raise SceneError(self.source, f"{where}.name", path, "same_file", None, other=self._taken[path.lower()])
+        self._taken[path.lower()] = where
 
 
 def _of_scene(asked: Request) -> Film | ListJob:
@@ -221,11 +302,6 @@ def _laid(asked: Request, layouts: dict[object, list[Any]]) -> Sequence[BoardJob
 _OF_ONE = ("cam", "model", "part")
 
 
-def _no_outline(where: str, part: str) -> LeftOut:
-    """A part that flat files cannot hold."""
-    return LeftOut(where, message(N_("{part} has no flat outline"), part=part))
-
-
 def _of_several(export: ExportSpec) -> bool:
     """Whether a picture shows parts together; that of a cam, a paper model and a working drawing show one."""
     sheet_of_several = on_sheet(export.format, export.purpose) and export.purpose not in _OF_ONE
@@ -238,26 +314,6 @@ def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) 
         return export
     asked = [p for p in export.parts or parts if p in only_parts]
     return with_keys(export, parts=[p for p in asked if export.purpose in ("model", "part") or parts[p].kind == "cam"])
-
-
-def _sheets(asked: Request, taken: dict[str, Text]) -> list[SheetJob]:
-    if asked.export.parts == []:
-        return []
-    from exporters.production.sheets import sheet_jobs
-
-    found = sheet_jobs(asked)
-    for job in found:
-        _take(job.path, asked.where, taken, asked.source)
-    return found
-
-
-def _take(path: str, where: str, taken: dict[str, Text], source: str) -> None:
-    """Note the name of a file; two exports into one file are refused."""
-    if not path:
-        return
-    if path.lower() in taken:
-        raise SceneError(source, f"{where}.name", path, "same_file", None, other=taken[path.lower()])
-    taken[path.lower()] = where
 
 
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:
