@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 from typing import Any, TypeAlias
@@ -24,6 +24,7 @@ from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import Words, words
 from parts.drawing.names import caption_name
+from parts.scene.load import SceneFile
 from parts.scene.standing import UPWARDS, Instance
 from parts.texts.checks import in_rows
 from parts.texts.findings import finding_text
@@ -121,10 +122,9 @@ def _unbroken(row: str) -> str:
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
-    from exporters.production.check_lines import caption_lines, picture_names
+    from exporters.production.check_lines import picture_names
     from exporters.production.preview_labels import Label, Tops, spread_labels
 
-    language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
     every = picture_names(plan.scene.instances, plan.parts)
     names = _together(every, stand)
@@ -147,20 +147,13 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         placed = [_placed(b.geometry, instance, place) for b in reversed(own)]
         if instance.id in lying:
             placed = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]]
-        data = " ".join(path_data(contour, corner) for contour in placed)
         # last digits, which differ from processor to processor, choose no place of a name
         places = [contour.sampled(PER_EDGE) for contour in placed]
         loops.append([(corner + points.conj()).round(DRAWN_DECIMALS) for points in places])
-        shade = plan.parts[instance.part].colour or fill(index)
-        style = f"fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
-        body.append(f'<path d="{data}" style="{style}"/>')
-        if lines_on := _lines_on(plan.parts[instance.part], instance, place, corner):
-            body.append(f'<path d="{lines_on}" style="fill:none;stroke:#202830;stroke-width:{reach / 600:.4g}"/>')
-        flat = [b.geometry for b in own] if instance.axis == UPWARDS else []
-        solid = solid_pins(plan.parts[instance.part], flat)
-        pins = " ".join(path_data(_placed(c, instance, place), corner) for c in solid)
-        if pins:
-            body.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
+        part, flat = plan.parts[instance.part], [b.geometry for b in own] if instance.axis == UPWARDS else []
+        pins = [_placed(contour, instance, place) for contour in solid_pins(part, flat)]
+        lines_on = _lines_on(part, instance, place, corner)
+        body += _instance(placed, lines_on, pins, part.colour or fill(index), corner, reach)
         height = _label_height(own, outers[index] - instance.centre)
         if instance.axis != UPWARDS:
             ends = outers[index].real, outers[index].imag
@@ -179,26 +172,50 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     body += [_leader(one.line, one.size) for one in named if one and one.line]
     body += [text_line(one.text, one.x, one.y, one.size, "text-anchor:middle;") for one in named if one]
     written = {one.text for one in named if one}
-    # no name is broken in the caption
-    whole = {key: name.replace(" ", _NO_BREAK) for key, name in every.items()}
-    covered = [label.text.replace(" ", _NO_BREAK) for label in labels if label.text not in written]
-    told = words(language)
-    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, whole, _MOST_LETTERS)]
-    if covered:
-        row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(dict.fromkeys(covered))))
-        count = len(covered)
-        less = told.plural(
-            "without its name in the picture: {parts} part", "without its name in the picture: {parts} parts", count,
-            parts=count,
-        )  # fmt: skip
-        rows.append(row if len(row) <= _MOST_LETTERS // 2 else less)
-    rows = [line for row in rows for line in wrap(_unbroken(told.decimal(row)), _WIDE_LETTERS)]
+    covered = [label.text for label in labels if label.text not in written]
+    rows = _caption_rows(plan.scene, checks, every, covered)
     caption = size * 1.7 * (len(rows) + 1)
     file = folder / scene_preview_name(plan)
     lines = [page_head(2 * middle, 2 * middle + caption - spare, whole=True), GROUND]
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file
+
+
+def _instance(
+    placed: Sequence[Contour], lines_on: str, pins: Sequence[Contour], shade: str, corner: complex, reach: float
+) -> Iterator[str]:
+    """An instance in its place and shade: its boundaries, the path of the lines on it, and its pins."""
+    width = f"stroke-width:{reach / 600:.4g}"
+    data = " ".join(path_data(contour, corner) for contour in placed)
+    yield f'<path d="{data}" style="fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;{width}"/>'
+    if lines_on:
+        yield f'<path d="{lines_on}" style="fill:none;stroke:#202830;{width}"/>'
+    if pins:
+        data = " ".join(path_data(pin, corner) for pin in pins)
+        yield f'<path d="{data}" style="{_PIN_STYLE};{width}"/>'
+
+
+def _caption_rows(
+    scene: SceneFile, checks: dict[str, Any], names: Mapping[str, str], covered: Sequence[str]
+) -> list[str]:
+    """The scene's title, what the checks found, and which names the picture has no room for."""
+    from exporters.production.check_lines import caption_lines
+
+    told = words(scene.scene.language)
+    # no name is broken in the caption
+    whole = {key: name.replace(" ", _NO_BREAK) for key, name in names.items()}
+    rows = [scene.scene.title or scene.name, *caption_lines(checks, scene.scene.language, whole, _MOST_LETTERS)]
+    if covered:
+        left = dict.fromkeys(name.replace(" ", _NO_BREAK) for name in covered)
+        row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(left)))
+        count = len(covered)
+        less = told.plural(
+            "without its name in the picture: {parts} part", "without its name in the picture: {parts} parts", count,
+            parts=count,
+        )  # fmt: skip
+        rows.append(row if len(row) <= _MOST_LETTERS // 2 else less)
+    return [line for row in rows for line in wrap(_unbroken(told.decimal(row)), _WIDE_LETTERS)]
 
 
 def _chain(centres: Complex, radius: float, corner: complex, reach: float) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
 
@@ -205,6 +205,24 @@ def scene_mechanism(
         An instance stands on two others, or the axes of a mesh part: named ``mates[k].KEY``.
     """
     bodies = Bodies(stand, matings)
+    joints = _joints(stand, matings, bodies)
+    holds = {key: None for mating in matings for key in mating.holds}
+    base = Mechanism(tuple(joints.values()), tuple(holds | dict.fromkeys(held)),
+                     {key: (one.centre, one.rotation) for key, one in stand.items()})  # fmt: skip
+    stands = tree(base)
+    laid = {
+        bodies.of(mating.second): _following(mating, stand, bodies.of(mating.second), laid=True)
+        for mating in matings
+        if mating.follows and (stand[mating.first].axis != Z or not in_plane(mating.first, stands))
+    }
+    if laid:
+        base = replace(base, joints=tuple((joints | laid).values()))
+        stands = tree(base)
+    return replace(base, joints=(*base.joints, *_meshes(stand, matings, bodies, stands, set(drives))))
+
+
+def _joints(stand: Stand, matings: Sequence[Mating], bodies: Bodies) -> dict[str, Joint]:
+    """What each instance stands on, or is one body with."""
     axes: dict[str, Instance] = {}
     carriers: dict[str, list[tuple[str, int]]] = {}
     joints: dict[str, Joint] = {}
@@ -224,7 +242,6 @@ def scene_mechanism(
     # an axis that a mate puts somewhere is there
     axes |= {key: stand[matings[found[0][1]].second] for key, found in carriers.items()}
     lines = {key: _about(key, one) for key, one in {**stand, **axes}.items()}
-
     led = set(joints)
 
     def carrier(on: str, line: Revolute) -> str:
@@ -244,33 +261,27 @@ def scene_mechanism(
                 if on != found[0][0]:
                     told = f"mates[{index + 1}].first"
                     raise ParameterError(told, matings[index].first, "stands_on_two", None, on=[found[0][0]])
-    holds = {key: None for mating in matings for key in mating.holds}
-    base = Mechanism(tuple(joints.values()), tuple(holds | dict.fromkeys(held)),
-                     {key: (one.centre, one.rotation) for key, one in stand.items()})  # fmt: skip
-    stands = tree(base)
-    laid = {
-        bodies.of(mating.second): _following(mating, stand, bodies.of(mating.second), laid=True)
-        for mating in matings
-        if mating.follows and (stand[mating.first].axis != Z or not in_plane(mating.first, stands))
-    }
-    if laid:
-        base = replace(base, joints=tuple((joints | laid).values()))
-        stands = tree(base)
-    meshes: list[Rolling] = []
+    return joints
+
+
+def _meshes(
+    stand: Stand, matings: Sequence[Mating], bodies: Bodies, stands: Tree, drives: set[str]
+) -> Iterator[Rolling]:
+    """What rolls on one another, each on what carries both axes."""
     for index, mating in enumerate(matings):
         for joint in mating.joints:
-            if isinstance(joint, Rolling):
-                shared = stands.common_carrier(joint.first, joint.second)
-                if bodies.of(joint.first) == bodies.of(joint.second):
-                    raise ParameterError(f"mates[{index + 1}].second", joint.second, "rolls_on_itself")
-                if shared is None:
-                    told = f"mates[{index + 1}].second"
-                    raise ParameterError(told, joint.second, "mesh_parts", None, first=joint.first)
-                # a ring that its mate holds turns nothing but what an eccentric carries
-                if not (mating.holds and shared == FRAME):
-                    uneven = _ahead(mating, joint, stand, matings, set(drives)) if mating.uneven else None
-                    meshes.append(replace(joint, on=shared, uneven=uneven))
-    return replace(base, joints=(*base.joints, *meshes))
+            if not isinstance(joint, Rolling):
+                continue
+            told = f"mates[{index + 1}].second"
+            shared = stands.common_carrier(joint.first, joint.second)
+            if bodies.of(joint.first) == bodies.of(joint.second):
+                raise ParameterError(told, joint.second, "rolls_on_itself")
+            if shared is None:
+                raise ParameterError(told, joint.second, "mesh_parts", None, first=joint.first)
+            # a ring that its mate holds turns nothing but what an eccentric carries
+            if not (mating.holds and shared == FRAME):
+                uneven = _ahead(mating, joint, stand, matings, drives) if mating.uneven else None
+                yield replace(joint, on=shared, uneven=uneven)
 
 
 def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Mating], drives: set[str]) -> Uneven:
