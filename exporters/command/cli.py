@@ -6,18 +6,17 @@ import argparse
 import errno
 import gc
 import os
-import signal
 import sys
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
-from types import FrameType
-from typing import TYPE_CHECKING, Any, NoReturn, TextIO, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from exporters import __version__, documents
 from exporters.command.parser import WRONG_INPUT, Misused, Parser, parsed, speaking
+from exporters.command.process import nowhere, stoppable, whole_process
 from parts.base.psv import rows_of
 from parts.base.texts import ENGLISH, N_, NC_, Words, languages, words
 
@@ -25,7 +24,7 @@ if TYPE_CHECKING:
     from exporters.production.plan import Plan
     from parts.scene.load import SceneFile
 
-DONE, FAILED, INTERRUPTED = 0, 1, 130
+DONE, FAILED = 0, 1
 # so many things are made between two searches for circles of them
 _MADE = 100_000
 _OURS = {"geometry", "parts", "exporters"}
@@ -55,24 +54,16 @@ _EXAMPLES = """
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns its exit code."""
-    _prepare_streams()
     # numpy is not loaded yet: its threads would take longer to start than all that we compute
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # of a million things that a build makes hardly one is part of a circle: to look for those less often saves time
     gc.set_threshold(_MADE)
-    options = _parsed(list(sys.argv[1:] if arguments is None else arguments))
-    previous: dict[signal.Signals, Any] = {}
-    told_lost, sys.unraisablehook = sys.unraisablehook, _lost
-    try:
-        for stop in _stops():
-            previous[stop] = signal.signal(stop, _stop)
-        return _ended(options)
-    except KeyboardInterrupt:
-        return _interrupted()
-    finally:
-        for stop, handler in previous.items():
-            signal.signal(stop, handler)
-        sys.unraisablehook = told_lost
+    return stoppable(lambda: _ended(_parsed(list(sys.argv[1:] if arguments is None else arguments))))
+
+
+def run() -> int:
+    """``main`` as a process of its own."""
+    return whole_process(main)
 
 
 def _ended(options: argparse.Namespace) -> int:
@@ -83,7 +74,7 @@ def _ended(options: argparse.Namespace) -> int:
         return code
     except BrokenPipeError:
         # whoever read the output has left: nothing more can be said to it
-        sys.stdout = _nowhere()
+        sys.stdout = nowhere()
         return DONE
     except (OSError, MemoryError, ImportError) as error:
         if (text := _outside(error, options)) is None:
@@ -130,22 +121,6 @@ def _library(error: BaseException | None) -> str | None:
             return library
         error = error.__cause__ or error.__context__
     return None
-
-
-def run() -> int:
-    """``main`` as a process of its own, which ends at once: to take apart what was loaded costs a tenth of a build."""
-    try:
-        code = main()
-    except SystemExit as told:
-        # help, the version, or a command line that means nothing
-        code = int(told.code or DONE)
-    # what other processes need at the end is told by them
-    if "multiprocessing" not in sys.modules:
-        with suppress(OSError):
-            sys.stdout.flush()
-            sys.stderr.flush()
-            os._exit(code)
-    return code
 
 
 def _parsed(arguments: list[str]) -> argparse.Namespace:
@@ -208,72 +183,6 @@ def _scene(address: str, options: argparse.Namespace) -> SceneFile:
 
     _check_language(options)
     return load_scene(address, options.language)
-
-
-def _prepare_streams() -> None:
-    """Output that cannot fail: what a terminal lacks becomes ?, a file or a pipe gets UTF-8, a closed stream none."""
-    for name in ("stdout", "stderr"):
-        stream = getattr(sys, name)
-        if stream is None:
-            setattr(sys, name, _nowhere())
-        elif hasattr(stream, "reconfigure"):
-            stream.reconfigure(encoding=None if stream.isatty() else "utf-8", errors="replace")
-
-
-def _nowhere() -> TextIO:
-    return open(os.devnull, "w", encoding="utf-8")
-
-
-def _stops() -> list[signal.Signals]:
-    """The signals that stop a command; a hang-up that somebody has turned off (nohup) stays off."""
-    names = ("SIGINT", "SIGTERM", "SIGHUP")
-    found = [getattr(signal, name) for name in names if hasattr(signal, name)]
-    return [s for s in found if s.name != "SIGHUP" or signal.getsignal(s) != signal.SIG_IGN]
-
-
-def _stop(number: int, frame: FrameType | None) -> None:
-    """A signal handler that stops the command; within an import, as soon as that is over.
-
-    A library that is stopped while it loads may do without what it was loading, and the stop would be lost.
-    """
-    importer = _outermost_import(frame)
-    if importer is None:
-        raise KeyboardInterrupt
-    importer.f_trace = _stop_traced
-    sys.settrace(lambda *_: None)
-
-
-def _outermost_import(frame: FrameType | None) -> FrameType | None:
-    """Who within ``main`` has asked for the import that ``frame`` is a part of; None outside of imports."""
-    importer = None
-    while frame is not None and frame.f_code is not main.__code__:
-        if frame.f_code.co_filename.startswith("<frozen importlib"):
-            importer = frame.f_back
-        frame = frame.f_back
-    return importer
-
-
-def _lost(found: sys.UnraisableHookArgs) -> None:
-    """What Python cannot raise where it stands: a stop within a destructor is raised where that was called."""
-    if not issubclass(found.exc_type, KeyboardInterrupt):
-        sys.__unraisablehook__(found)
-    elif (caller := sys._getframe().f_back) is not None:
-        caller.f_trace = _stop_traced
-        sys.settrace(lambda *_: None)
-
-
-def _stop_traced(frame: FrameType, event: str, value: object) -> NoReturn:
-    frame.f_trace = None
-    sys.settrace(None)
-    raise KeyboardInterrupt
-
-
-def _interrupted() -> int:
-    # Python remembers a stop that came within exec(), which libraries use, and would end itself by SIGINT in place of
-    # with our code; the next exec makes it forget
-    exec("")
-    print("higherpair: interrupted; nothing half-written is left", file=sys.stderr)
-    return INTERRUPTED
 
 
 @cache

@@ -292,11 +292,11 @@ def test_a_stop_within_an_exec_ends_with_the_code_of_an_interrupt(tmp_path: Path
     """Dataclasses use exec(), and Python remembers an interrupt in it till its own end, which would be by SIGINT."""
     lines = [
         "import sys",
-        "from exporters.command.cli import _interrupted",
+        "from exporters.command.process import interrupted",
         "try:",
         "    exec('raise KeyboardInterrupt')",
     ]
-    lines += ["except KeyboardInterrupt:", "    sys.exit(_interrupted())"]
+    lines += ["except KeyboardInterrupt:", "    sys.exit(interrupted())"]
     (tmp_path / "stopped.py").write_text("\n".join(lines), encoding="utf-8")
     done = subprocess.run([sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, timeout=60, check=False)
     assert done.returncode == 130
