@@ -11,12 +11,12 @@ from typing import Any
 
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
-from parts.base.texts import N_, Words, words
+from parts.base.texts import N_, Text, Words, words
 from parts.pages.inputs import PLACE
 from parts.pages.page import Section, Sheet, Step, formula_text, number, numbers_text
 from parts.pages.symbols import symbol_text
 from parts.pages.tables import csv_table, html_table, markdown_table, plain_table, table_data
-from parts.pages.text import equation, printed_text, result_text, source_text, step_name
+from parts.pages.text import printed_text, result_text, source_text, step_name
 
 _GEARS = {1: "first", 2: "second"}
 # what speaks a language, and what is numbers alone
@@ -48,50 +48,61 @@ def render(sheet: Sheet, form: str, language: str) -> str:
 
 
 def _text(sheet: Sheet, told: Words) -> str:
-    lines = [told.say(sheet.title), ""]
+    lines = [_phrase(sheet.title, told), ""]
     for section in sheet.sections:
-        lines += [told.say(section.title), "-" * len(told.say(section.title))]
+        title = _phrase(section.title, told)
+        lines += [title, "-" * len(title)]
         for step in section.steps:
-            source = f"  [{source_text(step.source, told)}]" if step.source else ""
-            lines.append(f"{step_name(step, told)}{source}")
-            lines.append(f"    {equation(step, told)}")
-            if step.printed is not None:
-                lines.append(f"    ! {printed_text(step, told)}")
+            name, working, result, source, misprint = _cells(step, told)
+            lines.append(f"{name}  [{source}]" if source else name)
+            lines.append(f"    {working} = {result}" if working else f"    {result}")
+            if misprint:
+                lines.append(f"    ! {misprint}")
         lines.append("")
     for table in sheet.tables:
         lines += [*plain_table(table, told), ""]
     if sheet.plain_picture:
         lines += [sheet.plain_picture, ""]
-    lines += [told.text("note: {text}", text=told.say(note)) for note in sheet.notes]
-    lines += ["", told.say(sheet.signed)] if sheet.signed else []
+    lines += [told.text("note: {text}", text=_phrase(note, told)) for note in sheet.notes]
+    lines += ["", _phrase(sheet.signed, told)] if sheet.signed else []
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
 def _markdown(sheet: Sheet, told: Words) -> str:
-    lines = [f"# {told.say(sheet.title)}", ""]
+    lines = [f"# {_phrase(sheet.title, told)}", ""]
     head = [told.text(head) for head in _HEADS]
     for section in sheet.sections:
-        lines += [f"## {told.say(section.title)}", "", _row(head), _row(["---"] * 4)]
-        lines += [_row([_escaped_md(cell) for cell in _cells(step, told)]) for step in section.steps]
+        lines += [f"## {_phrase(section.title, told)}", "", _row(head), _row(["---"] * 4)]
+        for step in section.steps:
+            *cells, source, misprint = _cells(step, told)
+            remark = "; ".join(filter(None, (source, misprint)))
+            lines.append(_row([_escaped_md(cell) for cell in (*cells, remark)]))
         lines.append("")
     for table in sheet.tables:
         lines += [*markdown_table(table, told), ""]
     if sheet.plain_picture:
         lines += ["```", sheet.plain_picture, "```", ""]
-    lines += [f"- {_escaped_md(told.say(note))}" for note in sheet.notes]
-    lines += ["", _escaped_md(told.say(sheet.signed))] if sheet.signed else []
+    lines += [f"- {_escaped_md(_phrase(note, told))}" for note in sheet.notes]
+    lines += ["", _escaped_md(_phrase(sheet.signed, told))] if sheet.signed else []
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _cells(step: Step, told: Words) -> list[str]:
-    """Name, formula with numbers, result, source with what is misprinted there."""
+def _phrase(text: Text, told: Words) -> str:
+    """A text with its numbers as the language prints them."""
+    return told.phrase(told.say(text))
+
+
+def _cells(step: Step, told: Words) -> tuple[str, str, str, str, str]:
+    """Name, formula with numbers, result, source, what is misprinted there; numbers as the language prints them."""
     parts = [symbol_text(step.symbol, told), formula_text(step, told), numbers_text(step, told)]
     if parts[-1] == number(step.value, step.unit, enclosed=True):
         parts.pop()
     working = " = ".join(dict.fromkeys(filter(None, parts)))
-    source = source_text(step.source, told)
-    remark = "; ".join(filter(None, (source, printed_text(step, told))))
-    return [step_name(step, told), working, result_text(step, told), remark]
+    result = result_text(step, told)
+    return (
+        told.phrase(step_name(step, told)), told.printed(working), told.printed(result) if _is_number(step) else result,
+        source_text(step.source, told), told.phrase(printed_text(step, told)),
+    )  # fmt: skip
 
 
 def _row(cells: list[str]) -> str:
@@ -111,7 +122,7 @@ span.w{color:#a00}h2{font-size:1.15rem;margin:1.5rem 0 .4rem}svg{max-width:100%;
 
 
 def _html(sheet: Sheet, told: Words) -> str:
-    title = html.escape(told.say(sheet.title))
+    title = html.escape(_phrase(sheet.title, told))
     lines = [
         f'<!DOCTYPE html>\n<html lang="{told.language}">\n<head>\n<meta charset="utf-8">',
         f"<title>{title}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
@@ -122,10 +133,10 @@ def _html(sheet: Sheet, told: Words) -> str:
     if sheet.picture is not None:
         lines.append(f"<figure>{sheet.picture.svg(told)}</figure>")
     if sheet.notes:
-        items = "".join(f"<li>{html.escape(told.phrase(told.say(note)))}</li>" for note in sheet.notes)
+        items = "".join(f"<li>{html.escape(_phrase(note, told))}</li>" for note in sheet.notes)
         lines.append(f"<ul>{items}</ul>")
     if sheet.signed:
-        lines.append(f"<p>{html.escape(told.phrase(told.say(sheet.signed)))}</p>")
+        lines.append(f"<p>{html.escape(_phrase(sheet.signed, told))}</p>")
     return "\n".join([*lines, "</body>\n</html>"]) + "\n"
 
 
@@ -133,18 +144,16 @@ def _html_section(section: Section, told: Words) -> str:
     head = "".join(f"<th>{told.text(head)}</th>" for head in _HEADS)
     rows = [f"<tr>{head}</tr>"]
     for step in section.steps:
-        name, working, result, _ = _cells(step, told)
-        source = html.escape(source_text(step.source, told))
-        if step.printed is not None:
-            source += f' <span class="w">{html.escape(told.phrase(printed_text(step, told)))}</span>'
+        name, working, result, source, misprint = _cells(step, told)
+        remark = f' <span class="w">{html.escape(misprint)}</span>' if misprint else ""
         cells = [
-            f"<td>{html.escape(told.phrase(name))}</td>",
-            f'<td class="f">{_subscripts(told.printed(working))}</td>',
-            f'<td class="r">{html.escape(told.printed(result) if _is_number(step) else result)}</td>',
-            f"<td>{source}</td>",
+            f"<td>{html.escape(name)}</td>",
+            f'<td class="f">{_subscripts(working)}</td>',
+            f'<td class="r">{html.escape(result)}</td>',
+            f"<td>{html.escape(source)}{remark}</td>",
         ]
         rows.append(f"<tr>{''.join(cells)}</tr>")
-    return f"<h2>{html.escape(told.phrase(told.say(section.title)))}</h2>\n<table>\n" + "\n".join(rows) + "\n</table>"
+    return f"<h2>{html.escape(_phrase(section.title, told))}</h2>\n<table>\n" + "\n".join(rows) + "\n</table>"
 
 
 def _is_number(step: Step) -> bool:
@@ -154,7 +163,7 @@ def _is_number(step: Step) -> bool:
 
 def _subscripts(text: str) -> str:
     """r_b1 as r with a lowered b1, z1 as z with a lowered 1; u_2'3^H with a lowered 2'3 and a raised H."""
-    text = re.sub(r"_(\d+&#x27;\w+|(?:[^\W_²³]|\.)+)", r"<sub>\1</sub>", html.escape(text))
+    text = re.sub(r"_(\d+&#x27;\w+|(?:[^\W_²³]|[.,](?=\d))+)", r"<sub>\1</sub>", html.escape(text))
     text = re.sub(r"\^(\w+)", r"<sup>\1</sup>", text)
     return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
 

@@ -22,7 +22,7 @@ def _heads(table: Table, words: Words) -> list[str]:
 def _rows(table: Table, words: Words) -> list[list[str]]:
     decimals = [_decimals(column) for column in zip(*table.rows, strict=True)]
     return [
-        [*map(words.text, labels), *map(_cell, row, decimals)][: table.shown]
+        [words.decimal(cell) for cell in (*map(words.text, labels), *map(_cell, row, decimals))][: table.shown]
         for labels, row in zip(_labels(table), table.rows, strict=True)
     ]
 
@@ -46,7 +46,7 @@ def plain_table(table: Table, words: Words) -> list[str]:
     rows = [_heads(table, words), *_rows(table, words)]
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in rows]
-    title = words.say(table.title)
+    title = words.phrase(words.say(table.title))
     return [title, "-" * len(title), *lines]
 
 
@@ -54,13 +54,13 @@ def markdown_table(table: Table, words: Words) -> list[str]:
     """Lines of a table in Markdown."""
     heads = [head.replace("_", r"\_") for head in _heads(table, words)]
     rows = [heads, ["---:"] * len(heads), *_rows(table, words)]
-    return [f"## {words.say(table.title)}", "", *(f"| {' | '.join(row)} |" for row in rows)]
+    return [f"## {words.phrase(words.say(table.title))}", "", *(f"| {' | '.join(row)} |" for row in rows)]
 
 
 def html_table(table: Table, words: Words) -> str:
     """A table of a page."""
     head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
-    rows = ["".join(f"<td>{words.decimal(cell)}</td>" for cell in row) for row in _rows(table, words)]
+    rows = ["".join(f"<td>{cell}</td>" for cell in row) for row in _rows(table, words)]
     body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
     return f"<h2>{html.escape(words.phrase(words.say(table.title)))}</h2>\n<table>\n{body}\n</table>"
 

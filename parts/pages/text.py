@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 
 from parts.base.texts import NC_, Words
-from parts.pages.page import Step, formula_text, number, numbers_text, unit_text
-from parts.pages.symbols import symbol_text
+from parts.pages.page import Step, number, unit_text
 from parts.pages.terms import TERMS
 
 # the words in the names of sources: "practicum (3.4)", "GOST 16532-70, table 2"
@@ -45,16 +44,6 @@ def result_text(step: Step, words: Words) -> str:
     unit = unit_text(step.unit, words)
     gap = "" if unit in ("°", "") else " "
     return f"{number(step.value, step.unit)}{gap}{unit}"
-
-
-def equation(step: Step, words: Words) -> str:
-    """Symbol = formula = numbers = result, as far as the step has them."""
-    parts = [symbol_text(step.symbol, words)] if step.symbol else []
-    if step.formula:
-        parts += [formula_text(step, words), numbers_text(step, words)]
-    if len(parts) > 1 and parts[-1] == number(step.value, step.unit, enclosed=True):
-        parts.pop()
-    return " = ".join([*dict.fromkeys(parts), result_text(step, words)])
 
 
 def printed_text(step: Step, words: Words) -> str:

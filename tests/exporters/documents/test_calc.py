@@ -293,7 +293,9 @@ def test_a_number_that_the_source_prints_rightly_is_not_flagged() -> None:
 
 
 def test_the_misprinted_inequality_and_left_side_are_named() -> None:
-    assert "x_min ≤ x ≤ x_0.3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    assert "x_min ≤ x ≤ x_0,3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    page = calculate("tmm42", ["module=10", "number_of_teeth=10"], "html", "uk")
+    assert '<td class="f">x<sub>0,3</sub></td>' in page
     assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
 
 
@@ -366,6 +368,10 @@ def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...
         assert re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}|\bз ", uk) or uk[0].isdigit() or "cos" in uk or "inv" in uk, uk
 
 
+# points that name: equations, figures, tables and sections, threads
+NAMED = r"\(\d\.\d+\)|(рис|табл|пп)\. \d\.\d+(–\d\.\d+)?|таблиця 1\.\d|M20×1\.5"
+
+
 @pytest.mark.sampled(12)
 @pytest.mark.parametrize("topic", TOPICS)
 @pytest.mark.parametrize("language", ["en", "uk"])
@@ -373,11 +379,12 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     sheet = sheet_for(" ".join(next(w for w in SHEETS if w[0] == topic)))
     made = {form: render(sheet, form, language) for form in SPOKEN}
     assert all(text.endswith("\n") for text in made.values())
-    title = words(language).say(sheet.title)
+    told = words(language)
+    title = told.phrase(told.say(sheet.title))
     assert made["text"].startswith(title)
-    # the point in every language, as keys have it
-    assert re.search(r"\d\.\d", made["text"])
-    assert not re.search(r"\d,\d", made["text"])
+    # one mark in all that people read
+    mark = "," if language == "uk" else "."
+    assert all(re.search(rf"\d{mark}\d", made[form]) for form in ("text", "md", "html"))
     assert made["md"].startswith(f"# {title}")
     assert f'<html lang="{language}">' in made["html"]
     # what is printed has the mark of its language, and true minus signs
@@ -387,18 +394,24 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
             assert not re.search(r"-\d|\d\.\d" if language == "uk" else r"-\d|\d,\d", result), result
     for tag in ("html", "table", "tr", "td", "ul", "sub", "svg"):
         assert len(re.findall(rf"<{tag}[ >]", made["html"])) == made["html"].count(f"</{tag}>"), tag
-    for note in map(words(language).say, sheet.notes):
+    for note in map(told.phrase, map(told.say, sheet.notes)):
         assert note in made["text"]
-        assert f"<li>{html.escape(words(language).phrase(note))}</li>" in made["html"]
+        assert f"<li>{html.escape(note)}</li>" in made["html"]
+    for step, row in zip(sheet.steps(), re.findall(r"<tr><td>.*?</tr>", made["html"]), strict=False):
+        if not isinstance(step.value, str):
+            result = html.unescape(re.findall(r'<td class="r">(.*?)</td>', row)[0])
+            assert f"{result}\n" in made["text"]
+            assert f"| {result} |" in made["md"]
     if language == "uk":
+        lines = [re.sub(r" {2}\[.*\]$", "", line) for line in made["text"].splitlines()]
+        assert [line for line in lines if re.search(r"\d\.\d", re.sub(NAMED, "", line))] == []
         # in words and pictures too, but for names of equations, figures, tables and sections; the last cell is a source
         shown = re.sub(r"<td>[^<]*(<span|</td></tr>)|<style>.*?</style>|<[^>]*>", " ", made["html"], flags=re.DOTALL)
-        named = r"\(\d\.\d+\)|(рис|табл|пп)\. \d\.\d+(–\d\.\d+)?|таблиця 1\.\d|M20×1\.5"
-        assert not re.search(r".{0,30}\d\.\d", re.sub(named, "", html.unescape(shown)))
+        assert not re.search(r".{0,30}\d\.\d", re.sub(NAMED, "", html.unescape(shown)))
     data = json.loads(made["json"])
     assert len(data["steps"]) == len(sheet.steps())
     for step in data["steps"]:
-        assert step["text"] in made["text"]
+        assert told.phrase(step["text"]) in made["text"]
 
 
 def test_json_has_full_precision_and_design_names() -> None:

@@ -13,6 +13,7 @@ import pytest
 
 from exporters.documents.topics import calculate
 from parts.base.refusal import SceneError
+from parts.base.texts import MINUS
 from tests.exporters.command.test_cli import complaint
 
 CASES = json.loads((Path(__file__).parents[2] / "published" / "cams.json").read_text(encoding="utf-8"))["cases"]
@@ -344,7 +345,7 @@ def test_misprints_of_table_2_2_are_told_where_its_rise_is() -> None:
     for place, quantity, right in wrong:
         assert float(right) == pytest.approx(table[place]["recomputed"][quantity], abs=0.006)
         printed = f"{table[place]['printed'][quantity]:g}"
-        assert f"= {printed} at k = {place[0]}/8 of the rise: right is {right}" in page
+        assert f"= {printed} at k = {place[0]}/8 of the rise: right is {right}".replace("-", MINUS) in page
     assert "table 2.2" not in calculate("cam", ["practicum_flat_cam"], "text", "en")
 
 
