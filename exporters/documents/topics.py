@@ -14,7 +14,7 @@ from msgspec import Struct
 from exporters.documents.render import FORMATS, render
 from exporters.formats.whole import beside, check_free
 from geometry.base.errors import Nearest, ParameterError
-from parts.base.kind import MOST_OFFERS
+from parts.base.offers import MOST_OFFERS
 from parts.base.psv import rows_of
 from parts.base.readback import ReadError
 from parts.base.refusal import SceneError, Typed, meant, placed

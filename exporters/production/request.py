@@ -9,7 +9,7 @@ from geometry.base.errors import Cure, GeometryError, Nearest, OffsetError, Para
 from geometry.base.nearest import nearest
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
-from parts.base.kind import MOST_OFFERS
+from parts.base.offers import MOST_OFFERS
 from parts.base.part import Part
 from parts.base.refusal import SceneError, explained, placed
 from parts.base.schema import value_at

@@ -5,16 +5,14 @@ A kind is an instance of a subclass, registered by one row of ``parts/base/kinds
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.record import Record, field
-from parts.base.refusal import SceneError, placed
-from parts.base.schema import as_typed, tried, unit_of, value_at
+from parts.base.refusal import SceneError
+from parts.base.schema import value_at
 from parts.base.texts import Text, Words
 
 if TYPE_CHECKING:
@@ -33,10 +31,6 @@ if TYPE_CHECKING:
 
 K = TypeVar("K", bound="MaterialKeys")
 T = TypeVar("T")
-# offers for one key that are tried, one after another: each limit may lie beyond the one before
-MOST_OFFERS = 4
-# parts of a limit by which further values are tried where something beside it stops it; how near that is found
-_FURTHER, _SHARE = (1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2, 3 / 4, 7 / 8, 1.0), 8e-4
 # the keys of every part of a scene, for what is made from another part's
 Others = Mapping[str, "MaterialKeys"]
 
@@ -231,94 +225,15 @@ class Kind(Generic[K, T]):
         ``make``: its thing as it is in its scene; ``fits`` refuses keys and their thing where what hangs on the part
         does not take them: what it offers for the same key is tried then.
         """
-        told = self._told(keys, refusal, source, place, make, fits)
+        from parts.base.offers import Trial
+
+        trial = Trial(keys, make, fits, self.solid if getattr(keys, "face_chamfer", 0.0) else None)
+        told = trial.told(refusal, source, place)
         if refusal.code != "either_key" or told.nearest is not None:
             return told
         # what cannot be left out stands beside what can
         owner, dot, own = refusal.name.rpartition(".")
         name = owner + dot + next(str(key) for key in refusal.numbers.values() if key != own)
         other = ParameterError(name, value_at(keys, name), refusal.code, Nearest(None), **refusal.numbers)
-        turned = self._told(keys, other, source, place, make, fits)
+        turned = trial.told(other, source, place)
         return told if turned.nearest is None else turned
-
-    def _told(
-        self,
-        keys: K,
-        refusal: ParameterError,
-        source: str,
-        place: str,
-        make: Callable[[K], T],
-        fits: Callable[[K, T], object],
-    ) -> SceneError:
-        """The same in the key that it names."""
-
-        # what an offer makes is asked for again by what hangs on it
-        last: dict[object, tuple[K, T]] = {}
-
-        def made(value: object) -> tuple[K, T]:
-            key = repr(value)
-            if key not in last:
-                changed = tried(keys, told.name, value)
-                thing = make(changed)
-                last.clear()
-                last[key] = changed, thing
-            return last[key]
-
-        def works(value: object) -> bool:
-            changed, thing = made(value)
-            # what a chamfer leaves of the edges only the solid tells
-            if chamfered:
-                self.solid(changed, thing, 0.0)
-            return True
-
-        def stands(value: object) -> bool:
-            fits(*made(value))
-            return works(value)
-
-        def cure() -> Nearest | None:
-            found = alone()
-            for _ in range(MOST_OFFERS):
-                if found is None:
-                    return None
-                try:
-                    fits(*made(found.value))
-                except ParameterError as again:
-                    if again.name != told.name:
-                        return beyond(found, stands, _SHARE)
-                    found = again.nearest
-                except (GeometryError, ArithmeticError, SceneError):
-                    return beyond(found, stands, _SHARE)
-                else:
-                    return found
-            return None
-
-        def beyond(found: Nearest, holds: Callable[[float], bool], share: float = 0.0) -> Nearest | None:
-            """Further from what was given than what something beside it stops: a chamfer, a hub, a mate."""
-            given, limit = told.value, found.value
-            if not isinstance(given, float) or not isinstance(limit, float):
-                return None
-            way = math.copysign(abs(limit), limit - given)
-            return nearest(holds, limit, [limit + way * further for further in _FURTHER], share=share)
-
-        def alone() -> Nearest | None:
-            found, given = told.nearest, told.value
-            if told is not refusal and isinstance(given, float):
-                # one number stands for both sides
-                return nearest(works, given, 0.0)
-            if found is None:
-                return None
-            try:
-                works(found.value)
-            except (GeometryError, ArithmeticError):
-                return beyond(found, works, 0.0 if chamfered else _SHARE)
-            return found
-
-        told = as_typed(keys, refusal)
-        chamfered = bool(getattr(keys, "face_chamfer", 0.0))
-
-        error = placed(source, place, told, unit_of(self.keys, told.name))
-        # a part may reckon with another number than the one in its file: the shift in the transverse section
-        if isinstance(told.value, float) and isinstance(typed := value_at(keys, told.name), float):
-            error.value = typed
-        error.offer(cure)
-        return error
