@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 import zlib
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -41,6 +42,13 @@ _MODEL, _STARTS, _TYPES = "3D/3dmodel.model", "_rels/.rels", "[Content_Types].xm
 _START = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 
 
+class _Base(NamedTuple):
+    """A material: its name, and its colour, #rrggbb."""
+
+    name: str | None = None
+    colour: str | None = None
+
+
 def read_3mf(file: Path) -> ReadMesh:
     """The single object of a 3MF package, built once where it stands."""
     root = _model(file)
@@ -48,7 +56,7 @@ def read_3mf(file: Path) -> ReadMesh:
     refuse_if(len(objects) != 1 or len(items) != 1, "the 3MF does not hold one object, built once")
     if items[0].get("transform") is not None:
         raise ReadError("the part of the 3MF has been moved out of its frame")
-    return _mesh(objects[0], _base_colour(objects[0], _bases(root)))
+    return _mesh(objects[0], _base(objects[0], _bases(root)))
 
 
 def read_3mf_assembly(file: Path) -> ReadAssembly:
@@ -62,8 +70,8 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
         if item.find(f"{_CORE}mesh") is None:
             raise ReadError("an object of the 3MF holds no mesh of its own")
         index[item.get("id")] = len(prototypes)
-        mesh = _mesh(item)
-        prototypes.append(Prototype(mesh.name or "", mesh, _base_colour(item, bases)))
+        mesh = _mesh(item, _base(item, bases))
+        prototypes.append(Prototype(mesh.name or "", mesh, mesh.colour))
     occurrences = []
     for item in root.iter(f"{_CORE}item"):
         refuse_if(item.get("objectid") not in index, "a build item names an object that is not there")
@@ -72,19 +80,21 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
     return ReadAssembly(title, prototypes, occurrences)
 
 
-def _bases(root: ElementTree.Element) -> dict[str | None, list[str]]:
-    """The colours, #rrggbb, of each group of materials."""
+def _bases(root: ElementTree.Element) -> dict[str | None, list[_Base]]:
+    """The materials of each group."""
     shades = [base.get("displaycolor", "").lower() for base in root.iter(f"{_CORE}base")]
     refuse_if(any(shade[7:] not in ("", "ff") for shade in shades), "a material of the 3MF can be seen through")
     return {
-        group.get("id"): [base.get("displaycolor", "")[:7].lower() for base in group.iter(f"{_CORE}base")]
+        group.get("id"): [
+            _Base(base.get("name"), base.get("displaycolor", "")[:7].lower()) for base in group.iter(f"{_CORE}base")
+        ]
         for group in root.iter(f"{_CORE}basematerials")
     }
 
 
-def _base_colour(item: ElementTree.Element, bases: dict[str | None, list[str]]) -> str | None:
-    shades, number = bases.get(item.get("pid"), []), item.get("pindex", "")
-    return shades[int(number)] if number.isdigit() and int(number) < len(shades) else None
+def _base(item: ElementTree.Element, bases: dict[str | None, list[_Base]]) -> _Base:
+    group, number = bases.get(item.get("pid"), []), item.get("pindex", "")
+    return group[int(number)] if number.isdigit() and int(number) < len(group) else _Base()
 
 
 def _transform(item: ElementTree.Element) -> Real:
@@ -137,7 +147,7 @@ def _check_known(root: ElementTree.Element) -> None:
                 raise ReadError(f'a <{tag}> of the 3MF has {name} = "{value}"')
 
 
-def _mesh(item: ElementTree.Element, colour: str | None = None) -> ReadMesh:
+def _mesh(item: ElementTree.Element, base: _Base) -> ReadMesh:
     """The mesh of an object."""
     try:
         corners = [[float(v.get(k, "")) for k in "xyz"] for v in item.iter(f"{_CORE}vertex")]
@@ -149,4 +159,4 @@ def _mesh(item: ElementTree.Element, colour: str | None = None) -> ReadMesh:
         raise ReadError("a 3MF triangle names a vertex that is not there")
     # an object that has a part number is called by it, and its name is what people read
     name, number = item.get("name", ""), item.get("partnumber")
-    return ReadMesh(vertices, triangles, number or name, colour, name if number else None)
+    return ReadMesh(vertices, triangles, number or name, base.colour, name if number else None, base.name)

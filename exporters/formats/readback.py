@@ -109,13 +109,14 @@ class ReadOutlines(ReadFlat):
 
 
 class ReadMesh(Record):
-    """Distinct vertices (n, 3) and triangles (k, 3); name, colour (#rrggbb), title: where a format has such."""
+    """Distinct vertices (n, 3) and triangles (k, 3); name, colour, title, material: where a format has such."""
 
     vertices: Real
     triangles: NDArray[np.int64]
     name: str | None = None
     colour: str | None = None
     title: str | None = None
+    material: str | None = None
     has_arcs = False
     is_flat = False
 

@@ -262,7 +262,7 @@ def _mesh_part(content: Content, made: Chords) -> MeshPart:
     from parts.solids.mesh import body_mesh
 
     part = content.part
-    return MeshPart(part.id, body_mesh(content.body, made), part.colour, part.title or "")
+    return MeshPart(part.id, body_mesh(content.body, made), part.colour, part.title or "", part.material)
 
 
 def _write_3mf(content: Content, made: Chords, file: Path) -> dict[str, int]:

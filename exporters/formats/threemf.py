@@ -27,12 +27,13 @@ DEFAULT_COLOUR = "#b8c4d0"
 
 
 class MeshPart(Record):
-    """A mesh by its id, with its colour, like "#c08040", and what people call it."""
+    """A mesh by its id, with its colour, like "#c08040", what people call it, and what it is made of."""
 
     name: str
     mesh: Mesh
     colour: str | None
     title: str = ""
+    material: str | None = None
 
 
 def write_3mf(file: Path, part: MeshPart) -> dict[str, int]:
@@ -92,7 +93,7 @@ def _add_object(model: Model, materials: BaseMaterialGroup, part: MeshPart, iden
         _structs(Lib3MF.Triangle, part.mesh.triangles.astype("<u4")),
     )
     shade = _colour(part.colour or DEFAULT_COLOUR)
-    item.SetObjectLevelProperty(materials.GetResourceID(), materials.AddMaterial(part.name, shade))
+    item.SetObjectLevelProperty(materials.GetResourceID(), materials.AddMaterial(part.material or part.name, shade))
     item.SetUUID(identity)
     return item
 

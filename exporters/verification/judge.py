@@ -89,11 +89,16 @@ def held(
 
 
 def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
-    """What is wrong with what a STEP file says of a part, or a 3MF of its title; volume and area are held elsewhere."""
+    """What is wrong with what a STEP or 3MF file says of a part; volume and area are held elsewhere."""
+    wrong, told = list[str](), N_("says of its {key}: {said} instead of {wanted}")
     if kind.form is not Form.FACES:
-        title = part.title if found.names() is None else cast("ReadMesh", found).title
-        told = N_("says of its title: {title} instead of {wanted}")
-        return unless(title == part.title, told, title=title, wanted=part.title)
+        if found.names() is None:
+            return wrong
+        mesh = cast("ReadMesh", found)
+        pairs = {"title": (mesh.title, part.title), "material name": (mesh.material, part.material or part.id)}
+        for key, (own, meant) in pairs.items():
+            wrong += unless(own == meant, told, key=key, said=own, wanted=meant)
+        return wrong
     said = cast("ReadSolid", found).said
     expected = {
         "title": None if part.product_name == part.id else part.product_name,
@@ -101,7 +106,6 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
         "material name": part.material,
         "density": part.density,
     }
-    wrong, told = list[str](), N_("says of its {key}: {said} instead of {wanted}")
     for key, wanted in expected.items():
         wrong += unless(said.get(key) == wanted, told, key=key, said=said.get(key), wanted=wanted)
     for what in ("volume", "surface area"):

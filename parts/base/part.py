@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
-from parts.base.materials import density_of
+from parts.base.materials import density_of, thickness_told
 from parts.base.texts import told_in, words
 
 if TYPE_CHECKING:
@@ -147,6 +147,9 @@ class Part(Record, dict=True):
         label, found = self.keys.label, self.report.findings
         if isinstance(label, str):
             found = (*found, *self.made_by.wrong_numbers(self.keys, label))
+        told = thickness_told(self.material or "")
+        if told is not None and self.is_plate and f"{told:.6g}" != f"{self.face_width:.6g}":
+            found = (*found, Finding("material_tells_thickness", told, self.face_width))
         return found
 
     @property

@@ -13,7 +13,8 @@ Material = Annotated[
     str,
     Meta(
         max_length=200,
-        description="material; names and marks that `higherpair list` shows give the mass, any other needs density",
+        description="material; names and marks that `higherpair list` shows give the mass, any other needs density; "
+        "its thickness is face_width, or that of a board",
         examples=["plywood 3 mm"],
     ),
 ]

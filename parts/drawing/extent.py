@@ -12,6 +12,7 @@ import numpy as np
 
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.line_arc import Line
 from geometry.plane.profile import Profile
 
 # what is one place, mm
@@ -30,7 +31,8 @@ def farthest(curves: Iterable[Curve], way: complex) -> complex:
 
 def summits(curve: Curve, way: complex) -> Iterator[complex]:
     """The places of a curve that are no less far in a direction of length 1 than those beside them."""
-    t = np.linspace(*curve.domain, _SAMPLES)
+    # a straight line has no summits but its ends
+    t = np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES)
     ahead = (curve.point(t) / way).real
     # the seam of a closed curve is both of its ends
     beside = np.maximum(np.append(ahead[1:], -math.inf), np.insert(ahead[:-1], 0, -math.inf))

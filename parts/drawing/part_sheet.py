@@ -47,6 +47,11 @@ _TRIED, _TRIED_APART = 24, 8
 _FEW = 3
 
 
+def _left(points: Complex) -> float:
+    """How far to the left the nearer end of a run stands."""
+    return float(points[[0, -1]].real.min())
+
+
 class PartMeasures(Record):
     """Every dimension's number is read off the file; every exact curve is found there.
 
@@ -61,13 +66,19 @@ class PartMeasures(Record):
         worst = 0.0
         layers = dict.fromkeys(name for name, _ in sheet.samples)
         drawn = {name: [points for layer, points in sheet.samples if layer == name] for name in layers}
+        # those that begin farther left first: of many only few lie near
+        for runs in drawn.values():
+            runs.sort(key=_left)
         reaches = {name: np.array([points[[0, -1]] for points in runs]) for name, runs in drawn.items()}
+        lefts = {name: ends.real.min(axis=1) for name, ends in reaches.items()}
         for paper, layer, curve in self.outlines:
             ends = curve.point(np.array(curve.domain)) * paper.scale + paper.origin
-            off, both = math.inf, reaches.get(layer, np.zeros((0, 2), dtype=complex))
+            off, left = math.inf, ends.real.min()
+            first, last = np.searchsorted(lefts.get(layer, np.zeros(0)), (left - _NEAR, left + _NEAR))
+            both = reaches[layer][first:last] if first < last else np.zeros((0, 2), dtype=complex)
             # a file may run along a curve either way
             near = np.minimum(np.abs(both - ends).max(axis=1), np.abs(both[:, ::-1] - ends).max(axis=1))
-            for k in np.flatnonzero(near < _NEAR):
+            for k in (first + np.flatnonzero(near < _NEAR)).tolist():
                 model = (drawn[layer][k] - paper.origin) / paper.scale
                 off = min(off, float(distance_to_curve(model, curve).max()) * paper.scale)
             worst = max(worst, off)

@@ -539,7 +539,8 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
         spec.purpose = default_export(spec.format).purpose
     if spec.purpose not in purposes:
         # a word that is none at all is refused as it is read: this one is of another format
-        told = {"format": spec.format, "known": list(purposes)}
+        others = [f'"{name}"' for name in FORMATS if spec.purpose in tolerances_of(name)]
+        told = {"format": spec.format, "known": list(purposes), "formats": others}
         raise SceneError(source, f"{place}.purpose", spec.purpose, "wrong_purpose", None, **told)
     if spec.kerf and spec.offset:
         refuse("kerf", "kerf_and_offset")

@@ -8,7 +8,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import ParameterError
@@ -485,14 +484,20 @@ def _close_ones(
     """Spur gears at one height whose tip circles cut each other though no mate joins them."""
     joined = {frozenset((m.first.id, m.second.id)) for m in mates}
     gears = [i for i in instances if parts[i.part].kind == "spur_gear" and i.axis == UPWARDS]
+    if len(gears) < 2:
+        return ()
+    import numpy as np
+
+    tips = {part: parts[part].circles["tip_diameter"] / 2 for part in {i.part for i in gears}}
+    centres, radii = np.array([i.centre for i in gears]), np.array([tips[i.part] for i in gears])
     found = []
-    for one, two in combinations(gears, 2):
-        if frozenset((one.id, two.id)) in joined or _common_width(one, two, parts) <= 0:
-            continue
-        tips = [parts[i.part].circles["tip_diameter"] / 2 for i in (one, two)]
-        distance = abs(two.centre - one.centre)
-        slack = TOLERANCES.relative_join * (abs(one.centre) + abs(two.centre) + sum(tips))
+    for k, one in enumerate(gears):
         # one within the other's bore is for the solids to tell
-        if abs(tips[0] - tips[1]) < distance < sum(tips) - slack:
-            found.append(Closeness(one.id, two.id, distance, sum(tips)))
+        distances, both = np.abs(centres[k + 1 :] - centres[k]), radii[k + 1 :] + radii[k]
+        slack = TOLERANCES.relative_join * (np.abs(centres[k + 1 :]) + abs(centres[k]) + both)
+        close = (np.abs(radii[k + 1 :] - radii[k]) < distances) & (distances < both - slack)
+        for number in np.flatnonzero(close).tolist():
+            two = gears[k + 1 + number]
+            if frozenset((one.id, two.id)) not in joined and _common_width(one, two, parts) > 0:
+                found.append(Closeness(one.id, two.id, float(distances[number]), float(both[number])))
     return tuple(found)

@@ -363,7 +363,7 @@ def test_meshes_come_back_as_they_were_written(tmp_path: Path) -> None:
     found = read_stl(tmp_path / "m.stl")
     assert len(found.vertices) == 8
     assert np.array_equal(found.vertices[found.triangles], PRISM[BOX.triangles])
-    part = MeshPart("m", MESH, "#0a14ff", "Box")
+    part = MeshPart("m", MESH, "#0a14ff", "Box", "PLA")
     assert write_3mf(tmp_path / "m.3mf", part) == {"triangles": 12, "vertices": 8}
     places = [("here", "m", Placement3()), ("there", "n", Placement3(translation=(1.0, 2.0, 3.25)))]
     counts = write_3mf_assembly(tmp_path / "a.3mf", "All", [part, MeshPart("n", MESH, None)], places)
@@ -372,6 +372,7 @@ def test_meshes_come_back_as_they_were_written(tmp_path: Path) -> None:
     assert whole.title == "All"
     assert [(p.name, p.colour) for p in whole.prototypes] == [("m", "#0a14ff"), ("n", "#b8c4d0")]
     assert [p.part.title for p in whole.prototypes] == ["Box", None]
+    assert [p.part.material for p in whole.prototypes] == ["PLA", "n"]
     assert [(o.name, o.prototype, o.place[:, 3].tolist()) for o in whole.occurrences] == [
         ("here", 0, [0, 0, 0]), ("there", 1, [1.0, 2.0, 3.25])
     ]  # fmt: skip

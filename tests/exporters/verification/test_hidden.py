@@ -229,6 +229,7 @@ SPOILT: dict[str, dict[str, Spoil]] = {
         "covered": swap("</svg>", '<rect width="100%" height="100%" style="fill:#ffffff"/></svg>'),
     },
     "g.3mf": {
+        "material": package(lambda t: re.sub(r'(<base name=")g"', r'\1steel"', t)),
         "support": package(lambda t: t.replace('type="model"', 'type="support"')),
         "not printed": package(lambda t: t.replace("<item ", '<item printable="0" ')),
         "extension": package(lambda t: t.replace('unit="', 'requiredextensions="s" unit="', 1)),
@@ -258,7 +259,8 @@ SAID: dict[str, dict[str, str]] = {
               "group": "<g> stands among", "picture in it": "<svg> stands among", "colour": "is named CUT_",
               "fill": "the style", "no line": "the style", "broad line": "the style", "style sheet": "holds <\\?xml-st",
               "entity": "holds <!DOCTYP", "animation": "<set> stands among", "order": "a circle stands behind a path"},
-    "g.3mf": {"support": 'type = "support"', "not printed": 'printable = "0"', "extension": "requiredextensions =",
+    "g.3mf": {"material": "material name: steel instead of g", "support": 'type = "support"',
+              "not printed": 'printable = "0"', "extension": "requiredextensions =",
               "colour": "#4080c0 instead of #c08040", "see-through": "can be seen through", "of a triangle": "has pid",
               "painted": "holds <", "path": "<item> of the 3MF has {", "another model": "begins with",
               "twice": "holds a part twice"},

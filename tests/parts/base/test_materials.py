@@ -157,6 +157,32 @@ def test_an_unknown_material_is_refused_with_the_names_that_are_known(
 
 
 @pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ('material = "plywood 3 mm"', (3.0, 10.0)),
+        ('material = "фанера 3,5мм"', (3.5, 10.0)),
+        ('material = "plywood 3 mm"\nface_width = 3.0', None),
+        ('material = "plywood 3 mm"\n[boards.b]\nwidth = 600.0\nheight = 400.0\nthickness = 3.0', None),
+        ('material = "plywood 3 mm"\n[boards.b]\nwidth = 600.0\nheight = 400.0\nthickness = 4.0', (3.0, 4.0)),
+        # what a rod or a bar is, and what is no sheet of one thickness
+        ('material = "steel Ø60 mm"', None),
+        ('material = "steel 60x60 mm"', None),
+        ('material = "plywood 3 mm"\nhub = { diameter = 20.0, above = 5.0 }', None),
+    ],
+)
+def test_a_material_that_tells_another_thickness_is_noted(
+    keys: str, told: tuple[float, float] | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(f"{GEAR}{keys}\n{EXPORT}", encoding="utf-8")
+    assert run("build", file, "--out", tmp_path / "out") == 0
+    notes = [line for line in capsys.readouterr().out.splitlines() if "its material says" in line]
+    assert len(notes) == (told is not None)
+    if told is not None:
+        assert "{:g} mm, it is {:g} mm thick: `face_width`".format(*told) in notes[0]
+
+
+@pytest.mark.parametrize(
     "scene",
     [
         f'{GEAR}material = "unobtainium"\ndensity = 1.1\n',

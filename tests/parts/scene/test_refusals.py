@@ -115,6 +115,7 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "tolerance 1e-12": ({}, {"tolerance": "1e-12"}, "exports[1].tolerance", "1e-12", "at least 1e-07"),
     "tolerance 1e9": ({}, {"tolerance": "1e9"}, "exports[1].tolerance", "1000000000", "at most 1"),
     "negative tolerance": ({}, {"tolerance": "-0.1"}, "exports[1].tolerance", "-0.1", "at least"),
+    "plate of an stl": ({}, {"format": '"stl"', "purpose": '"plate"'}, "exports[1].purpose", "plate", 'format = "3mf"'),
     "R12 of an stl": ({}, {"format": '"stl"', "dxf_version": '"R12"'}, "exports[1].dxf_version", "R12", "remove"),
     "printing on a laser": ({}, {"purpose": '"print"'}, "exports[1].purpose", "print", "laser"),
     "a purpose of other formats, like none of its own": (
