@@ -79,8 +79,8 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
     """A round disk with the walls of its groove; how wide that is stands in the table: the section cuts it aslant."""
     radius, top, floor = disk.outer_radius, disk.shape.face_width, disk.floor
     wheel = Wheel(disk.shape, disk.holes, (radius, radius), None, stands=False)
-    section, face, *others = wheel_views(wheel, subject)
     walls: tuple[Profile, ...] = subject.part.section(0.0).region.marks
+    section, face, *others = wheel_views(wheel, subject, walls)
     strokes, hatched = list[Stroke](), list[tuple[Line | Arc, ...]]()
     for way in (1, -1):
         low, high = sorted(reach(wall, way * math.pi / 2) for wall in walls)

@@ -127,7 +127,7 @@ def _lines(rows: Sequence[ListRow], language: str) -> Iterator[_Cells]:
 
 def mass_text(mass: float) -> str:
     """Three digits that count, never with a power of ten."""
-    return f"{Decimal(f'{mass:.3g}'):f}"
+    return f"{Decimal(f'{mass:#.3g}'):f}"
 
 
 def _mass(mass: float, told: Words) -> str:

@@ -762,10 +762,10 @@ def _leftmost(corner: Arc) -> float:
     return 0.1 * corner.centre.imag - corner.centre.real
 
 
-def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
-    """Section, face, and the bore where it is not round."""
+def wheel_views(wheel: Wheel, subject: Subject, walls: Sequence[Profile] = ()) -> tuple[View, ...]:
+    """Section, face, and the bore where it is not round; ``walls``: what else the section cuts."""
     section, face = section_view(wheel, subject), face_view(wheel, subject)
-    if not (even := _is_even(wheel)):
+    if not (even := _is_even(wheel) and all(map(_both_alike, walls))):
         # a plane of no symmetry is marked (GOST 2.305)
         letter = subject.letter()
         section = replace(section, title=f"{letter}-{letter}", in_row=True)
@@ -778,6 +778,11 @@ def _is_even(wheel: Wheel) -> bool:
     outline = wheel.outline
     if outline is None or wheel.stands or wheel.root is not None:
         return True
+    return _both_alike(outline)
+
+
+def _both_alike(outline: Profile) -> bool:
+    """Whether an outline is as far from the axis on both sides of the upright plane."""
     sides = ((reach(outline, angle), reach(outline, math.pi - angle)) for angle in _SIDES)
     return all(abs(one - other) < _EVEN * one for one, other in sides)
 

@@ -44,6 +44,9 @@ from parts.pins.pin import EccentricSpec, PinSpec
 from parts.pins.pin_plate import LanternWheelSpec, OutputPlateSpec
 from parts.pins.pin_ring import PinRingSpec
 
+# mm in which two radii are one
+_SAME = 1e-9
+
 
 def part_drawing(subject: Subject) -> PartDrawing:
     """The drawing of any part with round pins, or that runs on them."""
@@ -129,11 +132,11 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
     # where the material begins in the plane of the section: beyond a seat, or at the foot of a pin
     begins = circle + radius if is_seat else circle - radius
     section = ring_section(width, (inner, begins, outer), ring.holes, subject)
-    axes = [Line(complex(0.0, way * circle), complex(width, way * circle)) for way in (1, -1)]
-    sizes = [
-        Size("inner_diameter", complex(width, -inner), complex(width, inner), "right", "Ø"),
-        Size("pin_circle_diameter", -1j * circle, 1j * circle, "left", "Ø"),
-    ]
+    sizes, axes = [Size("inner_diameter", complex(width, -inner), complex(width, inner), "right", "Ø")], list[Line]()
+    # seats about the edge itself have no other circle
+    if abs(inner - circle) > _SAME:
+        sizes.append(Size("pin_circle_diameter", -1j * circle, 1j * circle, "left", "Ø"))
+        axes = [Line(complex(0.0, way * circle), complex(width, way * circle)) for way in (1, -1)]
     section = replace(section, notes=(_runs(width / 2, -begins, subject),)).plus(axes=axes, sizes=sizes)
     seats = ring.region(0.0).holes[0]
     centres = ring.pin_centres()

@@ -97,6 +97,8 @@ PARTS |= {
     "lantern": {"kind": "lantern_wheel", "number_of_pins": 12, "pin_circle_diameter": 80.0, "pin_diameter": 8.0,
                 "bore_diameter": 15.0},
     "pin ring": {"kind": "pin_ring", "number_of_pins": 12, "pin_circle_diameter": 80.0, "pin_diameter": 8.0},
+    "wide ring": {"kind": "pin_ring", "number_of_pins": 12, "pin_circle_diameter": 80.0, "pin_diameter": 8.0,
+                  "inner_diameter": 83.0},
     "barrel": {"kind": "barrel_cam", "form": "groove", "outer_diameter": 70.0, "groove_depth": 8.0, "lift": 18.0,
                "roller_diameter": 10.0, "bore_diameter": 12.0, "phases": PARTS["cam"]["phases"]},
 }  # fmt: skip
@@ -206,7 +208,8 @@ SIZES: dict[str, list[float]] = {
     "eccentric": [10, 10, 4, 32],
     # plates of 3, pins of 10 between them; two pins of rim
     "lantern": [96, 80, 15, 3, 10, 16, 8],
-    "pin ring": [104, 80, 80, 10, 4],
+    "pin ring": [104, 80, 10, 4],
+    "wide ring": [104, 83, 80, 10, 4],
     # lift, roller and half a roller at each end
     "barrel": [70, 12, 38, 8, 70 * math.pi],
     # what stands alike on both sides of an axis from side to side
@@ -400,15 +403,18 @@ def test_what_stands_behind_the_section_of_a_wheel_that_is_not_round_is_seen_in_
 
 
 @pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["cam", "groove"])
 @pytest.mark.parametrize("even", [True, False])
-def test_the_section_of_a_cam_is_marked_where_its_plane_is_none_of_symmetry(tmp_path: Path, even: bool) -> None:
+def test_the_section_of_a_cam_is_marked_where_its_plane_is_none_of_symmetry(
+    tmp_path: Path, name: str, even: bool
+) -> None:
     """GOST 2.305: strokes and arrows over the face, both letters above the section; the bore has the next."""
     rise = 180.0 if even else 100.0
     phases = [{"move": "rise", "angle_deg": rise, "law": "sine"},
               {"move": "return_", "angle_deg": 360.0 - rise, "law": "sine"}]  # fmt: skip
     keyed = {"phases": phases, "bore": {"shape": "keyway", "diameter": 18.0, "standard": "GOST 23360"}}
     for language, (first, second) in {"en": "AB", "uk": "АБ"}.items():
-        space = ezdxf.readfile(drawn(tmp_path, PARTS["cam"] | keyed, language=language, tolerance=1e-2)).modelspace()
+        space = ezdxf.readfile(drawn(tmp_path, PARTS[name] | keyed, language=language, tolerance=1e-2)).modelspace()
         said = [(t.dxf.text.partition(" (")[0], t.dxf.insert) for t in space.query("TEXT")]
         letters = [text for text, _ in said if set(text) <= {first, second, "-"} and text != "-"]
         bore, marked = (first, []) if even else (second, [first, first, f"{first}-{first}"])

@@ -23,6 +23,7 @@ from parts.drawing.canvas import Box, Canvas, text_of, text_width
 from parts.drawing.extent import crossings, farthest, reach, sampled
 from parts.drawing.ink import Ink
 from parts.drawing.labels import Labeller, nearest, spread
+from parts.drawing.parts_list import mass_text
 from parts.drawing.places import apart, circled, place_sizes, spans
 from parts.drawing.shown import shown_pieces
 from parts.drawing.table import Row, Table
@@ -498,3 +499,12 @@ def test_a_column_of_names_has_the_order_of_its_points(left: bool) -> None:
         assert ends == pytest.approx([dict(names)[told.text], complex(51.0 if left else 49.0, y)])
         assert line.layer == "DIMENSION"
     assert text_of("low", 0j, size).runs[0].height == size
+
+
+@pytest.mark.parametrize(
+    ("mass", "text"),
+    [(0.5, "0.500"), (2.3, "2.30"), (12.0, "12.0"), (150.0, "150"), (1234.0, "1230"), (0.00012, "0.000120")],
+)
+def test_three_digits_of_a_mass_count_whatever_they_are(mass: float, text: str) -> None:
+    """GOST 2.104 leaves the digits to the drawing: as many of each."""
+    assert mass_text(mass) == text
