@@ -178,7 +178,7 @@ def _as_typed(
     def cure() -> Nearest | None:
         found = refusal.nearest
         for _ in range(MOST_OFFERS):
-            if found is None or found.side == "meant":
+            if found is None or found.side in ("meant", "same"):
                 return found
             try:
                 begun(_retyped(typed, path, found.value) or typed)

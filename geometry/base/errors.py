@@ -14,14 +14,14 @@ class GeometryError(Exception):
     """Root of all errors raised by this project's geometry."""
 
 
-Side = Literal["at_most", "at_least", "exactly", "meant"]
+Side = Literal["at_most", "at_least", "exactly", "meant", "same"]
 
 
 class Nearest(Record):
     """The value of a refused parameter nearest to the given one that works; None: it works when left out.
 
-    ``side``: an upper limit (``at_most``), a lower one (``at_least``), a value of its own, or the word that was
-    probably ``meant``.
+    ``side``: an upper limit (``at_most``), a lower one (``at_least``), a value of its own, the word that was
+    probably ``meant``, or a key of ours with the value that says the ``same``.
     """
 
     value: float | str | bool | list[float] | None

@@ -18,6 +18,7 @@ REMEDIES = {
     "at_least": N_("at least {value} works"),
     "exactly": N_("{value} works"),
     "meant": N_("did you mean {value}?"),
+    "same": N_("{value} is the same"),
     "without": N_("remove {key}"),
 }
 _MORE: dict[str, Text] = {}

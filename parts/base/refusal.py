@@ -179,7 +179,7 @@ def _remedy(nearest: Nearest, refusal: SceneError) -> Message:
         return message(REMEDIES["without"], key=refusal.key.rpartition(".")[2])
     if isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool):
         return message(REMEDIES[nearest.side], value=in_unit(f"{nearest.value:.12g}", nearest.value, refusal.unit))
-    value = str(nearest.value) if nearest.side == "meant" else format_value(nearest.value)
+    value = str(nearest.value) if nearest.side in ("meant", "same") else format_value(nearest.value)
     return message(REMEDIES[nearest.side], value=value)
 
 

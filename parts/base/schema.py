@@ -16,6 +16,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, format_value
 from geometry.base.nearest import nearest
+from parts.base.counted_over import counted_over
 from parts.base.refusal import SYNONYMS, SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
 
@@ -96,6 +97,9 @@ def _check_misspelt(name: str, table: Mapping[str, Any], source: str, place: str
     import difflib
 
     strange = [key for key in table if key not in known]
+    for key in strange:
+        if counted := counted_over(key, table[key], [name], table):
+            raise SceneError(source, f"{place}.{key}", table[key], "unknown_key", counted, known=[name])
     synonyms = [key for key in strange if name in SYNONYMS.get(key.lower(), ())]
     for key in synonyms[:1] or difflib.get_close_matches(name, strange, 1, 0.7):
         raise SceneError(source, f"{place}.{key}", table[key], "unknown_key", Nearest(name, "meant"), known=[name])
@@ -113,7 +117,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         known = ([tag] if tag else []) + [f.encode_name for f in own_first(owner)]
         around = looked_up(table, keys)
         # hardly a key that stands there already
-        like = meant(name, [key for key in known if key not in around]) or meant(name, known)
+        like = counted_over(name, around[name], known, around)
+        like = like or meant(name, [key for key in known if key not in around]) or meant(name, known)
         see = f"higherpair new {owner.__struct_config__.tag}" if tag == "kind" else ""
         return SceneError(source, f"{where}.{name}", around[name], "unknown_key", like, known=known, see=see)
     if missing := re.search(r"missing required field `(.*?)`", message):

@@ -31,7 +31,8 @@ def at_home(refusal: SceneError, raw: Tables, plain: Mapping[str, type[Struct]])
     steps = [str(step) for step in steps_of(refusal.key)]
     own, key = "" if len(steps) < 2 else steps[0], steps[-1] if steps else ""
     near, alike = refusal.nearest, SYNONYMS.get(key.lower(), [])
-    if near and (near.value in alike or difflib.SequenceMatcher(None, key, str(near.value)).ratio() >= _NEAR):
+    sure = near and (near.side == "same" or near.value in alike)
+    if sure or (near and difflib.SequenceMatcher(None, key, str(near.value)).ratio() >= _NEAR):
         return refusal
     export = plain["[[exports]]"]
     # of exports that have it none takes it

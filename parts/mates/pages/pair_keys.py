@@ -11,6 +11,7 @@ from msgspec import Meta, Struct
 from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.teeth.helix import Helix
+from parts.base.counted_over import counted_over
 from parts.base.mate import End, MateKeys, Mating
 from parts.base.refusal import SceneError, meant
 from parts.base.schema import fields_of
@@ -139,7 +140,8 @@ def pair_table(table: Mapping[str, Any], pair: type[Struct], topic: str) -> dict
     known = list(dict.fromkeys([*keys_of(pair), *(key for kind in bodies for key in keys_of(kind)), "kind"]))
     for key in made:
         if key not in keys_of(pair):
-            raise SceneError(PLACE, f"{topic}.{key}", made[key], "unknown_key", meant(key, known), known=known)
+            like = counted_over(key, made[key], known, made) or meant(key, known)
+            raise SceneError(PLACE, f"{topic}.{key}", made[key], "unknown_key", like, known=known)
     for name in GEARS:
         if name not in made:
             raise SceneError(PLACE, f"{topic}.{name}", None, "gear_missing", None, name=name)

@@ -1,0 +1,126 @@
+"""Words and numbers of other programs in a scene: each refusal says which key of ours has the same."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from exporters.documents.topics import TOPICS
+from parts.base.refusal import SYNONYMS
+from parts.scene.files import built_in_scenes
+from tests.exporters.making import Keys, run, write_scene
+
+_PHASES = [{"move": "rise", "angle_deg": 180.0, "law": "sine"}, {"move": "return_", "angle_deg": 180.0, "law": "sine"}]
+_CAM: Keys = {"kind": "cam", "follower": "roller", "lift": 10.0, "phases": _PHASES}
+_SPUR: Keys = {"kind": "spur_gear", "number_of_teeth": 20}
+_WORM: Keys = {"kind": "worm", "module": 2.0, "number_of_starts": 1, "thread_length": 30.0}
+_PULLEY: Keys = {"kind": "timing_pulley", "number_of_teeth": 20, "belt": "GT2"}
+_BEVEL: Keys = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_number_of_teeth": 20}
+
+
+def told(tmp_path: Path, capsys: pytest.CaptureFixture[str], part: Keys) -> str:
+    """The refusal of a scene of one part."""
+    assert run("check", write_scene(tmp_path / "s.toml", {"g": part}, [{"format": "stl"}])) == 2
+    return capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("part", "word", "number", "ours", "value"),
+    [
+        (_SPUR, "diametral_pitch", 24, "module", 127 / 120),
+        (_SPUR, "DP", 25.4, "module", 1.0),
+        (_SPUR, "circular_pitch", 5.0, "module", 1.5915494309189535),
+        (_SPUR, "pitch_diameter", 50.0, "module", 2.5),
+        (_SPUR | {"helix_angle_deg": 60.0}, "pitch_diameter", 50.0, "module", 1.25),
+        (_WORM, "pitch_diameter", 25.0, "diameter_quotient", 12.5),
+        (_CAM | {"base_circle_radius": 40.0}, "roller_diameter", 10.0, "follower_radius", 5.0),
+        (_CAM | {"follower_radius": 5.0}, "base_circle_diameter", 80.0, "base_circle_radius", 40.0),
+        (_CAM | {"follower_radius": 5.0}, "max_pressure_angle_deg", 30.0, "least_transmission_angle_deg", 60.0),
+        (_CAM | {"follower_radius": 5.0}, "pressure_angle_deg", 30.0, "least_transmission_angle_deg", 60.0),
+    ],
+)
+def test_a_number_of_another_program_is_told_as_ours(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], part: Keys, word: str, number: float, ours: str, value: float
+) -> None:
+    """And the scene takes what was told."""
+    line = re.search(r"(\w+) = (\S+) is the same\n", told(tmp_path, capsys, part | {word: number}))
+    assert line is not None
+    assert line[1] == ours
+    assert math.isclose(float(line[2]), value, rel_tol=4e-16)
+    mended = part | {ours: float(line[2])}
+    assert run("check", write_scene(tmp_path / "s.toml", {"g": mended}, [{"format": "stl"}])) == 0
+
+
+def test_a_calculation_tells_it_too(capsys: pytest.CaptureFixture[str]) -> None:
+    pair = ("calc", "gear-pair", "first.number_of_teeth=12", "second.number_of_teeth=24")
+    assert run(*pair, "diametral_pitch=8") == 2
+    assert "module = 3.175 is the same" in capsys.readouterr().err
+    assert run("calc", "spur", "number_of_teeth=12", "circular_pitch=pi") == 2
+    assert "is the same" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("part", "word", "value", "meant"),
+    [
+        (_SPUR | {"module": 2.0}, "teeth_number", 19, "number_of_teeth"),
+        (_SPUR | {"module": 2.0}, "herringbone", True, "double_helical"),
+        (_SPUR | {"module": 2.0}, "hub_diameter", 12.0, "hub.diameter"),
+        (_SPUR | {"module": 2.0}, "n_spokes", 5, "spokes.count"),
+        (_SPUR | {"module": 2.0}, "backlash", 0.1, "circumferential_thinning"),
+        (_SPUR | {"module": 2.0}, "axle_hole", 5.0, "bore_diameter"),
+        (_SPUR | {"module": 2.0}, "root_fillet", 0.2, "basic_rack.tip_radius_coefficient"),
+        (_SPUR | {"module": 2.0}, "root_diameter", 30.0, None),
+        (_BEVEL, "cone_distance", 30.0, None),
+        (_BEVEL, "pitch_angle_deg", 45.0, None),
+        (_PULLEY, "profile", "GT2", "belt"),
+        (_CAM | {"follower_radius": 5.0}, "base_radius", 30.0, "base_circle_radius"),
+        (_CAM | {"follower_radius": 5.0, "base_circle_radius": 30.0}, "offset", 5.0, "follower_offset"),
+    ],
+)
+def test_a_word_of_another_program_leads_to_ours_or_nowhere(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], part: Keys, word: str, value: object, meant: str | None
+) -> None:
+    refusal = told(tmp_path, capsys, part | {word: value})
+    found = re.search(r"did you mean (\S+)\?", refusal)
+    assert (found[1] if found else None) == meant
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [
+        ("crown_gear", "face_gear"), ("internal_gear", "ring_gear"), ("elliptical_gear", "noncircular_gear"),
+        ("cylindrical_cam", "barrel_cam"), ("maltese_cross", "geneva_wheel"), ("screw_gear", "crossed_helical_pair"),
+        ("cycloidal_drive", "cycloidal_reducer"), ("disc_cam", "cam"), ("ratchet", "layered"),
+        ("harmonic_drive", None), ("globoidal_cam", None), ("sector_gear", None),
+    ],
+)  # fmt: skip
+def test_a_kind_of_another_program_leads_to_ours_or_nowhere(
+    capsys: pytest.CaptureFixture[str], word: str, meant: str | None
+) -> None:
+    assert run("new", word) == 2
+    found = re.search(r"did you mean (\S+)\?", capsys.readouterr().err)
+    assert (found[1] if found else None) == meant
+
+
+def test_all_synonyms_lead_to_words_of_ours(capsys: pytest.CaptureFixture[str]) -> None:
+    """Keys, values and kinds of the schema, keys of calculations, their topics, built-in scenes."""
+    assert run("schema") == 0
+    known, left = {*TOPICS, *built_in_scenes()}, [json.loads(capsys.readouterr().out)]
+    while left:
+        node = left.pop()
+        if isinstance(node, dict):
+            known |= {*node.get("properties", ()), *map(str, node.get("enum", ())), str(node.get("const"))}
+            left += node.values()
+        elif isinstance(node, list):
+            left += node
+    for topic in TOPICS:
+        assert run("calc", topic, "--keys") == 0
+        keys = capsys.readouterr().out
+        known |= {*re.findall(r"^#? ?([\w.]+) = ", keys, re.MULTILINE), *re.findall(r'"([^"]+)"', keys)}
+    lost = {f"{word} | {ours}" for word, all_ours in SYNONYMS.items() for ours in all_ours
+            if ours not in (word, *known) and ours.partition(".")[0] not in known}  # fmt: skip
+    assert not lost
