@@ -21,6 +21,8 @@ _CLEARANCES = {
     "B": (120, 140, 160, 185, 210, 230, 250, 280, 320, 360, 420, 500, 600),
     "A": (190, 220, 250, 290, 320, 360, 400, 440, 500, 560, 660, 780, 920),
 }
+# of a distance: rounding of a_w, by which 80 mm are 80.00000000000001
+_ROUNDING = 1e-10
 SIDE_CLEARANCE_CLASSES = tuple(_CLEARANCES)
 
 
@@ -35,7 +37,7 @@ def guaranteed_normal_backlash(side_clearance_class: str, working_centre_distanc
     if side_clearance_class not in _CLEARANCES:
         known = SIDE_CLEARANCE_CLASSES
         raise ParameterError("side_clearance_class", side_clearance_class, "not_one_of", Nearest("C"), known=known)
-    index = bisect_left(_DISTANCES, working_centre_distance)
+    index = bisect_left(_DISTANCES, working_centre_distance * (1 - _ROUNDING))
     if index == len(_DISTANCES):
         most = _DISTANCES[-1]
         raise ParameterError("side_clearance_class", side_clearance_class, "classes_end_at_distance", distance=most)

@@ -204,6 +204,15 @@ def test_wishes_are_met() -> None:
     assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("module", "second", "least"), [(2, 60, 0.120), (2, 61, 0.140), (2, 105, 0.140), (5, 80, 0.185), (4, 80, 0.185)]
+)
+def test_a_range_of_side_clearances_holds_its_last_distance(module: int, second: int, least: float) -> None:
+    """Class B, 20 teeth: 80 mm are 80.00000000000001, 125 and 250 alike, and had the backlash of the next range."""
+    words = f"gear-pair module={module} first.number_of_teeth=20 second.number_of_teeth={second} side_clearance_class=B"
+    assert values_of(words)["values"]["normal_backlash"] == pytest.approx(least, rel=1e-9)
+
+
 @pytest.mark.parametrize("wish", ["normal_backlash=0.3", "circumferential_backlash=0.3", "side_clearance_class=A"])
 def test_a_backlash_beside_two_thinned_gears_is_refused_by_its_key(wish: str) -> None:
     """Both keep their own thinning, so that the wish was passed over and 0.0940 mm told in its place."""
