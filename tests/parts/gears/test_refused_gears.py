@@ -111,7 +111,7 @@ def test_a_search_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
         return search(one, *rest, **more)
 
     for home in ("geometry.gears.teeth.limits", "geometry.gears.teeth.ring_limits", "parts.gears.spur_gear.part",
-                 "parts.keys.holes", "parts.scene.checks", "parts.base.kind"):  # fmt: skip
+                 "parts.keys.holes", "parts.scene.checks", "parts.base.offers"):  # fmt: skip
         monkeypatch.setattr(f"{home}.nearest", counted)
     for table, *_ in REFUSED.values():
         refused = refusal(table)
