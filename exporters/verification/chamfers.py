@@ -5,8 +5,6 @@ A point's distance is taken within the plane of its height, which is never less 
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,8 +22,8 @@ _LEVEL_DIGITS, _BEYOND = 9, 1e-7
 _UP, _ACROSS = (0.25, 0.5, 0.75), (0.0, 0.5)
 
 
-def chamfer_deviation(points: Points, body: Body, declared: float) -> float:
-    """Greatest distance of points from the chamfers of a body, each within the plane of its height, mm.
+def chamfer_distances(points: Points, body: Body, declared: float) -> Points:
+    """Distances (n,) of points (n, 3) from the chamfers of a body, each within the plane of its height, mm.
 
     Infinite where a point stands at no height of a chamfer.
     """
@@ -39,11 +37,10 @@ def chamfer_deviation(points: Points, body: Body, declared: float) -> float:
         for wall in walls:
             low, high = body.height(wall)
             if low - _BEYOND <= z <= high + _BEYOND:
-                sections.append(body.section(wall, float(np.clip(z, low, high))))
-        if not sections:
-            return math.inf
-        best[mine] = distance_to_nearest(places[mine], sections, declared)
-    return float(best.max())
+                sections.append(body.standing(wall, float(np.clip(z, low, high))))
+        if sections:
+            best[mine] = distance_to_nearest(places[mine], sections, declared)
+    return best
 
 
 def slice_points(mesh: ReadMesh, triangles: Triangles) -> Points:

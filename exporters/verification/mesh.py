@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from exporters.formats.readback import Loop, ReadMesh
-from exporters.verification.chamfers import chamfer_deviation, slice_points
+from exporters.verification.chamfers import chamfer_distances, slice_points
 from exporters.verification.outlines import verify_loops
 from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures
@@ -156,12 +156,12 @@ def _verify_walls(
             return [(Verdict({}, (fault("a chamfer does not run from slice to slice between its ends"),)), 0.0)]
         layers = [(level, triangles[low == level]) for level in slices[:-1].tolist()]
         layers.append((pair[1], triangles[high == pair[1]]))
-        worst = chamfer_deviation(slice_points(mesh, triangles), body, declared)
+        worst = float(chamfer_distances(slice_points(mesh, triangles), body, declared).max())
         failures = deviation_failures(worst, declared, tolerance, body.section_reach())
         found.append((Verdict({"max_deviation": worst}, tuple(failures)), 0.0))
     for level, layer in layers:
         loops = [places[chain] for chain in chains(layer, z == level, len(z))]
-        profiles = [body.section(w, level) for w in walls]
+        profiles = [body.standing(w, level) for w in walls]
         verdict = verify_loops(
             [Loop(v, np.zeros(len(v)), "") for v in loops],
             profiles,

@@ -9,7 +9,7 @@ from exporters.formats.read_part21 import Index
 from exporters.formats.read_solid import LEVEL, PLANE, SQUARE, Model
 from exporters.formats.read_step import ReadSolid
 from exporters.verification.area import told_verdict
-from exporters.verification.chamfers import chamfer_deviation
+from exporters.verification.chamfers import chamfer_distances
 from exporters.verification.copies import copy_failures
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
@@ -49,16 +49,16 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     worst = max(worst, deviation)
     if slanted.size:
         points = np.concatenate([edge_points(model, slanted), inner_points(model, slanted)])
-        of = screw_deviation if body.has_screws() else chamfer_deviation
-        worst = max(worst, of(points, body, declared))
+        off = np.minimum(screw_distances(points, body, declared), chamfer_distances(points, body, declared))
+        worst = max(worst, float(off.max()))
     failures += unless(slanted.size or not body.has_screws(), "the solid has no screw surface")
     failures += deviation_failures(worst, declared, tolerance, reach)
     measured = told.measured | {"contours": float(contours), "max_deviation": worst}
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
-def screw_deviation(points: Real, body: Body, declared: float) -> float:
-    """Greatest distance of points (n, 3) from the screw surfaces, each within the plane of its own height, mm."""
+def screw_distances(points: Real, body: Body, declared: float) -> Real:
+    """Distances (n,) of points (n, 3) from the screw surfaces, each within the plane of its own height, mm."""
     best = np.full(len(points), np.inf)
     for wall in body.walls:
         if not body.is_screw(wall):
@@ -68,7 +68,7 @@ def screw_deviation(points: Real, body: Body, declared: float) -> float:
         back = body.moved_back(wall, points[mine])
         found = distance_to_profile(back, body.loop_profile(wall.lower), trusted=declared)
         best[mine] = np.minimum(best[mine], found)
-    return float(best.max())
+    return best
 
 
 def _caps(model: Model, faces: Index, body: Body, declared: float, tolerance: float) -> tuple[int, float, list[str]]:

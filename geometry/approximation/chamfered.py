@@ -39,11 +39,12 @@ Sections = Callable[[float], Profile]
 
 
 def chamfered_outlines(
-    whole: Profile, chamfers: Sequence[Sequence[Sections]], tolerance: float, *, degree: int
+    whole: Profile, chamfers: Sequence[Sequence[Sections]], tolerance: float, *, degree: int, turned: bool = False
 ) -> tuple[Outline, ...]:
     """The whole boundary and the end of each chamfer within ``tolerance`` mm; each end has the poles of its faces.
 
-    ``chamfers``: the pieces of each one's depth, one behind the other.
+    ``chamfers``: the pieces of each one's depth, one behind the other. ``turned``: the boundary is that of a screw
+    surface too.
 
     Raises
     ------
@@ -52,7 +53,9 @@ def chamfered_outlines(
     """
     error = math.inf
     for share in _SHARES:
-        outline = spline_outline(whole, share * tolerance, degree=degree, continuity=degree - 1, at_knots=True)
+        outline = spline_outline(
+            whole, share * tolerance, degree=degree, continuity=degree - 1, turned=turned, at_knots=True
+        )
         made = []
         for pieces in chamfers:
             above = outline
@@ -151,14 +154,15 @@ def _end_of(whole: Profile, outline: Outline, sections: Sections, tolerance: flo
     faces, worst = [], outline.max_error
     certified = True
     for base, segment, own, others in zip(outline.period, parted(whole).period, nodes, tests, strict=True):
-        if isinstance(base, BSpline):
+        if isinstance(base, BSpline) and base.degree > 1:
             rows, error, proven = _spline_rows(base, segment.curve, own, others, tolerance)
             period.append(BSpline(base.degree, base.knots, rows[-1]))
         else:
             end = own[-1]
             assert isinstance(end, Arc | Line)
-            period.append(end)
             rows, proven = np.array([[start_point(c), end_point(c)] for c in own]), True
+            # a straight edge of a screw surface is a spline
+            period.append(BSpline(1, base.knots, rows[-1]) if isinstance(base, BSpline) else end)
             error = _strays(own, others)
         worst, certified = max(worst, error), certified and proven
         faces.append(bezier_poles(rows.T))

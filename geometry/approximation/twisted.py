@@ -130,6 +130,27 @@ def _finished(
     raise ConvergenceError("slices for the tolerance", worst, _MOST_SHRINKS)
 
 
+def slices_over(contour: Contour, error: float, tolerance: float) -> Approximation:
+    """Chords within ``error`` mm of a profile, on whichever side of it, with the step between slices that they allow.
+
+    Raises
+    ------
+    ConvergenceError
+        The chords leave too little of the tolerance to the slices.
+    """
+    ends = np.append(contour.vertices, contour.period_ends()[-1])
+    step = math.sqrt(8 * (tolerance - error) / float(np.abs(ends).max()))
+    for _ in range(_MOST_SHRINKS):
+        worst = 0.0
+        for sense in (1, -1):
+            rising = rising_diagonals(contour, sense * step)
+            worst = max(worst, *(float(_errors(ends, error, bend, rising, sense * step).max()) for bend in (1, -1)))
+        if worst <= tolerance:
+            return Approximation(contour, worst, "certified", tolerance, step)
+        step *= 0.95
+    raise ConvergenceError("slices for the tolerance", worst, _MOST_SHRINKS)
+
+
 def rising_diagonals(contour: Contour, step: float) -> NDArray[np.bool_]:
     """Which edges (n,) of a period take the diagonal from their lower start to their upper end.
 

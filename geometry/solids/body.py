@@ -34,13 +34,15 @@ class Twist(Record):
     double: bool = False
     slope: complex = 0j
 
-    def stations(self, low: float, high: float) -> tuple[Station, ...]:
-        """Stations between which the wall is one screw surface; neither turned nor moved at its lower end."""
-        whole = high - low
-        if not self.double:
-            return (low, 0.0, 0j), (high, self.rate * whole, self.slope * whole)
-        middle = ((low + high) / 2, self.rate * whole / 2, self.slope * whole / 2)
-        return (low, 0.0, 0j), middle, (high, 0.0, 0j)
+    def stations(self, low: float, high: float, cuts: tuple[float, float] = (0.0, 0.0)) -> tuple[Station, ...]:
+        """Stations between which the wall is one screw surface; neither turned nor moved at its lower end.
+
+        ``cuts``: how far, mm, it begins above that end and ends below the upper one.
+        """
+        begin, end, middle = low + cuts[0], high - cuts[1], (low + high) / 2
+        places = (begin, middle, end) if self.double and begin < middle < end else (begin, end)
+        moved = [min(z - low, high - z) if self.double else z - low for z in places]
+        return tuple((z, self.rate * by, self.slope * by) for z, by in zip(places, moved, strict=True))
 
 
 class Loop(Record):
@@ -61,8 +63,9 @@ class Wall(Record):
     """The wall between two loops (indices): upright where both have one profile in one placement.
 
     One profile with two turns makes a screw surface: its section at any height is the profile, turned in proportion to
-    the height; one with two shifts is sheared. Two profiles make a chamfer, and neither is moved: ``section(z)`` is the
-    exact profile at a height from the lower to the upper loop, mm, segment for segment that of both.
+    the height; one with two shifts is sheared. Two profiles make a chamfer, and both are in one placement: in its plane
+    ``section(z)`` is the exact profile at a height from the lower to the upper loop, mm, segment for segment that of
+    both.
     """
 
     lower: int
@@ -120,6 +123,11 @@ class Body(Record, dict=True):
         """The exact section of an upright wall or a chamfer at a height within it, mm."""
         return self.loop_profile(wall.lower) if wall.section is None else wall.section(z)
 
+    def standing(self, wall: Wall, z: float) -> Profile:
+        """The same in the place of the wall."""
+        place, profile = self.loops[wall.lower], self.section(wall, z)
+        return profile.placed(place.placement) if place.turn or place.shift else profile
+
     def twist(self, wall: Wall) -> float:
         """Angle by which a wall turns from its lower to its upper loop, rad."""
         return self.loops[wall.upper].turn - self.loops[wall.lower].turn
@@ -146,7 +154,7 @@ class Body(Record, dict=True):
         return max(found)
 
     def turn_at(self, wall: Wall, z: ArrayLike) -> Real:
-        """Turn of a wall's section at heights z, rad; a chamfer is not turned."""
+        """Turn of a wall's section at heights z, rad."""
         return self.loops[wall.lower].turn + self._share(wall, z) * self.twist(wall)
 
     def shift_at(self, wall: Wall, z: ArrayLike) -> Complex:

@@ -6,7 +6,7 @@ every tooth is one bundle of faces.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from functools import partial
 
 import numpy as np
@@ -29,7 +29,8 @@ _DEGREE = 7
 def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
     """Every profile of a body as finished curves within ``tolerance`` mm, on screw surfaces over them too."""
     body = _cut(body)
-    twisted, made = body.twisted_profiles(), _chamfered_outlines(body, tolerance)
+    twisted = body.twisted_profiles()
+    made = _chamfered_outlines(body, tolerance, twisted)
     for index, profile in enumerate(body.profiles):
         if index in made:
             continue
@@ -40,8 +41,8 @@ def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
     return tuple(made[i] for i in range(len(body.profiles)))
 
 
-def _chamfered_outlines(body: Body, tolerance: float) -> dict[int, Outline]:
-    """The outlines of profiles that chamfers join, each whole one with its ends."""
+def _chamfered_outlines(body: Body, tolerance: float, twisted: Container[int]) -> dict[int, Outline]:
+    """The outlines of profiles that chamfers join, each whole one with its ends; some are those of screw surfaces."""
     # the pieces of a chamfer by the profiles where they begin and end
     pieces: dict[int, dict[int, Sections]] = {}
     for wall, whole, end in body.chamfers():
@@ -58,7 +59,11 @@ def _chamfered_outlines(body: Body, tolerance: float) -> dict[int, Outline]:
                 ((end, sections),) = pieces[indices[-1]].items()
                 chamfers[-1].append(sections)
                 indices.append(end)
-        outlines = chamfered_outlines(body.profiles[index], chamfers, tolerance, degree=_DEGREE)
+        profile, turned = body.profiles[index], index in twisted
+        near = tolerance - 2 * turn_error(profile.reach()) if turned else tolerance
+        outlines = chamfered_outlines(profile, chamfers, near, degree=_DEGREE, turned=turned)
+        if turned:
+            outlines = (with_turn_error(outlines[0], profile.reach()), *outlines[1:])
         made |= dict(zip(indices, outlines, strict=True))
     return made
 

@@ -46,7 +46,8 @@ def cut_chamfers(body: Body, pieces: Pieces) -> Body:
             z = (1 - share) * body.loops[whole].z + share * body.loops[end].z
             if share < 1 and (*key, share) not in sections:
                 sections[*key, share] = body.section(wall, z)
-            above = end if share == 1 else made.loop(sections[*key, share], z)
+            placed = body.loops[whole].turn, body.loops[whole].shift
+            above = end if share == 1 else made.loop(sections[*key, share], z, *placed)
             lower, upper = (below, above) if whole == wall.lower else (above, below)
             made.wall(lower, upper, wall.section)
             below = above

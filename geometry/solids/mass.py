@@ -63,7 +63,8 @@ def _wall_share(body: Body, wall: Wall) -> Real:
     lower, chamfer = body.loop_profile(wall.lower), body.is_chamfer(wall)
     one_section = None if chamfer else section_moments(lower)
     # the moments of three periods or more do not feel a turn
-    moved = not chamfer and (lower.count < 3 or body.shear(wall) != 0)
+    place = body.loops[wall.lower]
+    moved = body.shear(wall) != 0 or (lower.count < 3 and not (chamfer and place.turn == 0 == place.shift))
     count = _CHAMFER_POINTS if chamfer else _TURNED_POINTS if moved else _HEIGHT_POINTS
     share = np.zeros(10)
     for z, weight in zip(*(x.tolist() for x in panels(np.array([low, high]), count)), strict=True):

@@ -57,7 +57,8 @@ class WheelShape(Record):
     """What turns the section of a wheel into a solid, lengths in mm; lower face of the rim at z = 0.
 
     ``chamfer_below``, ``chamfer_above``: axial and radial height of the 45 degree chamfer along every edge of
-    the end faces (below, it takes the elephant foot of a print). ``twist``: of helical teeth, which have no chamfers.
+    the end faces (below, it takes the elephant foot of a print). ``twist``: of helical teeth; the chamfers of their
+    faces stand upright, over and under the section where the helix ends.
     """
 
     face_width: float
@@ -158,8 +159,9 @@ class _Wheel:
     """Builds one wheel; z values of both sides in mm, side 0 below and side 1 above."""
 
     def __init__(self, shape: WheelShape, sections: WheelSections, offset: float) -> None:
-        from geometry.solids.body import BodyBuilder
+        from geometry.solids.body import BodyBuilder, Twist
 
+        self.upright = Twist()
         self.sections, self.offset, self.twist = sections, offset, shape.twist
         width, web, hub = shape.face_width, shape.web, shape.hub
         self.rim = (0.0, width)
@@ -179,10 +181,8 @@ class _Wheel:
         recessed = self._recessed
         if self.sections.rim is not None:
             outline = self.sections.rim(self.made, self.offset)
-        elif self.twist is None:
-            outline = self._run(self.sections.outline, self.rim, (True, True), "outline")
         else:
-            outline = self.made.run(self.sections.outline(self.offset, 0.0), self.twist.stations(*self.rim))
+            outline = self._run(self.sections.outline, self.rim, (True, True), "outline", self.twist)
         self.holes = [
             self._run(hole, self.web, (not recessed(0), not recessed(1)), "hole") for hole in self.sections.holes
         ]
@@ -242,19 +242,20 @@ class _Wheel:
         heights: tuple[float, float],
         chamfered: tuple[bool, bool],
         who: str,
+        twist: Twist | None = None,
     ) -> tuple[int, int]:
         """The walls of one boundary from its lower to its upper end; returns the loops at both ends."""
         whole = profile(self.offset, 0.0)
         below_cut, above_cut = (c if flag else 0.0 for c, flag in zip(self.chamfer, chamfered, strict=True))
         cuts = (below_cut, above_cut)
         _check_wall(heights[1] - heights[0], cuts, who)
-        stations = [(heights[0] + cuts[0], whole), (heights[1] - cuts[1], whole)]
+        stations = [(whole, *s) for s in (twist or self.upright).stations(*heights, cuts)]
         if cuts[0] > 0:
-            stations.insert(0, (heights[0], _inset(profile, self.offset, cuts[0], "below", who)))
+            stations.insert(0, (_inset(profile, self.offset, cuts[0], "below", who), heights[0], *stations[0][2:]))
         if cuts[1] > 0:
-            inset = stations[0][1] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
-            stations.append((heights[1], inset))
-        loops = [self.made.loop(p, z) for z, p in stations]
+            inset = stations[0][0] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
+            stations.append((inset, heights[1], *stations[-1][2:]))
+        loops = [self.made.loop(*station) for station in stations]
         at = cache(partial(profile, self.offset))
 
         def below(z: float) -> Profile:

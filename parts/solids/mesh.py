@@ -6,6 +6,7 @@ closed by construction. parts/solids/faces.py is the other half.
 
 from __future__ import annotations
 
+from collections.abc import Container
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -32,6 +33,9 @@ if TYPE_CHECKING:
     from geometry.solids.faced import FacedBody
     from parts.solids.face_mesh import FaceMesh
 
+# of the tolerance of a screw surface that has a chamfer, what its chords may take
+_TURNED_SHARE = 0.4
+
 
 class Mesh(Record):
     """Vertices (n, 3) float, mm; triangles (k, 3) int, counter-clockwise seen from outside."""
@@ -54,14 +58,14 @@ def mesh_outlines(body: Body | FacedBody, tolerance: float, least_edge: float) -
     twisted = body.twisted_profiles()
     for group in body.groups():
         profiles = [body.profiles[i] for i in group]
-        if group[0] in twisted:
+        if len(group) > 1:
+            made |= dict(zip(group, _chamfered(body, group, tolerance, least_edge, twisted), strict=True))
+        elif group[0] in twisted:
             from geometry.approximation.twisted import approximate_twisted
 
             made[group[0]] = approximate_twisted(profiles[0], tolerance, least_edge)
-        elif len(group) == 1:
-            made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
         else:
-            made |= dict(zip(group, _chamfered(body, group, tolerance, least_edge), strict=True))
+            made[group[0]] = approximate_profile(profiles[0], tolerance, arcs=False, least_edge=least_edge)
     return tuple(made[i] for i in range(len(body.profiles)))
 
 
@@ -71,13 +75,25 @@ def _sliced(body: Body, tolerance: float) -> Body:
     return cut_chamfers(body, lambda *_: shares)
 
 
-def _chamfered(body: Body, group: tuple[int, ...], tolerance: float, least_edge: float) -> tuple[Approximation, ...]:
-    """Matching chords of profiles that chamfers join; the bound holds for what lies between them too."""
+def _chamfered(
+    body: Body, group: tuple[int, ...], tolerance: float, least_edge: float, twisted: Container[int]
+) -> tuple[Approximation, ...]:
+    """Matching chords of profiles that chamfers join; the bound holds for what lies between them too.
+
+    Those of screw surfaces leave a share of the tolerance to the slices of these.
+    """
     profiles = [body.profiles[i] for i in group]
     bow = max(chamfer_bow(body, *chamfer) for chamfer in body.chamfers() if body.loops[chamfer[1]].profile in group)
-    made = approximate_together(profiles, tolerance - bow, least_edge)
+    turned = any(i in twisted for i in group)
+    made = approximate_together(profiles, (_TURNED_SHARE if turned else 1.0) * tolerance - bow, least_edge)
     bound: Bound = "sampled" if bow > 0 else made[0].bound
-    return tuple(replace(a, max_error=a.max_error + bow, bound=bound, tolerance=tolerance) for a in made)
+    found = [replace(a, max_error=a.max_error + bow, bound=bound, tolerance=tolerance) for a in made]
+    for k, index in enumerate(group):
+        if index in twisted:
+            from geometry.approximation.twisted import slices_over
+
+            found[k] = replace(slices_over(found[k].geometry, found[k].max_error, tolerance), bound=bound)
+    return tuple(found)
 
 
 def count_edges(body: Body | FacedBody, outlines: tuple[Approximation, ...]) -> int:

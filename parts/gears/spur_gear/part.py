@@ -110,7 +110,6 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
         The gear cannot exist; names the key and the nearest value that works.
     """
     helix = checked_teeth(keys, keys.number_of_teeth)
-    _check_face_chamfer(keys)
 
     def holes_fit(changed: SpurGearSpec) -> bool:
         section = transverse_gear(gear_of(changed), helix.angle)
@@ -118,6 +117,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
 
     try:
         gear = checked_gear(gear_of(keys), helix.angle)
+        _check_face_chamfer(keys, gear)
         check_wheel(shape_of(keys), 2 * gear.root_radius, gear.holes)
     except ParameterError as refusal:
         whole = LateError(refusal.code, partial(_whole, keys, refusal))
@@ -214,13 +214,15 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 SPUR_GEAR = SpurGearKind()
 
 
-def _check_face_chamfer(keys: SpurGearSpec) -> None:
-    """A plane chamfer of a screw surface is no ruled wall between parallel outlines."""
-    given = keys.face_chamfer
+def _check_face_chamfer(keys: SpurGearSpec, gear: SpurGear) -> None:
+    """A chamfer that stands upright over the end of a helix stays within the teeth: beta_b is below 45 degrees."""
+    given, helix = keys.face_chamfer, helix_of(keys)
     both = {"": given} if not isinstance(given, FaceChamferTable) else {".below": given.below, ".above": given.above}
+    slope = math.tan(helix.angle) * gear.base_radius / gear.reference_radius
     for key, value in both.items():
-        if keys.helix_angle_deg and value > 0:
-            raise ParameterError(f"face_chamfer{key}", value, "no_chamfer_on_helix", Nearest(0.0))
+        if value > 0 and slope >= 1:
+            angle = math.degrees(math.atan(slope))
+            raise ParameterError(f"face_chamfer{key}", value, "chamfer_on_steep_helix", Nearest(0.0), angle=angle)
 
 
 def _chamfer_finding(keys: SpurGearSpec) -> tuple[Finding, ...]:
