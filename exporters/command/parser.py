@@ -72,8 +72,18 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
         _refuse(parser.words, text, f"{parser.prog} {options.command}")
     if several is not None:
         name, made_by = several
-        getattr(options, name).extend(map(made_by, rest))
+        found = [file for word in map(str, (*getattr(options, name), *rest)) for file in _matched(word)]
+        setattr(options, name, [made_by(word) for word in found])
     return options
+
+
+def _matched(word: str) -> list[str]:
+    """The files of a pattern that the shell has left as it is, as those of Windows do; else the word itself."""
+    if not {"*", "?"} & {*word} or os.path.lexists(word):
+        return [word]
+    import glob
+
+    return sorted(glob.glob(word)) or [word]
 
 
 def _columns() -> int:

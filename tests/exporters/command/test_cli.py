@@ -533,3 +533,24 @@ def test_a_reader_that_goes_away_is_no_error(tmp_path: Path) -> None:
     shut = subprocess.run(f'"{sys.executable}" -m exporters new spur_gear >&-', shell=True, cwd=tmp_path, text=True,
                           capture_output=True, timeout=60, check=False)  # fmt: skip
     assert "Traceback" not in shut.stderr
+
+
+def test_a_pattern_that_the_shell_left_alone_means_its_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Those of Windows leave all of them, and the README's `verify out/.../*.dxf` found no such file."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("one", "two"):
+        write_scene(tmp_path / f"{name}.toml", {"g": part_keys(Gear(2, 23))}, [{"format": "dxf"}, {"format": "svg"}])
+    assert run("build", "*.toml", "--out", "out", "--quiet") == 0
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["one", "two"]
+    capsys.readouterr()
+    assert run("verify", "out/*/*.dxf", "--json") == 0
+    assert len(json.loads(capsys.readouterr().out)) == 2
+    # a file whose own name has such a letter is that file, and a pattern of no file is told as it is
+    (tmp_path / "out/one/g.dxf").rename(tmp_path / "out/one/g?.dxf")
+    (tmp_path / "out/one/gg.dxf").write_text("no DXF")
+    assert run("verify", "out/one/g?.dxf") == 2
+    assert "g?.dxf" in capsys.readouterr().err
+    assert run("verify", "out/*/*.stl") == 2
+    assert "*.stl: no such file" in capsys.readouterr().err
