@@ -58,7 +58,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # of a million things that a build makes hardly one is part of a circle: to look for those less often saves time
     gc.set_threshold(_MADE)
-    return stoppable(lambda: _ended(_parsed(list(sys.argv[1:] if arguments is None else arguments))))
+    asked = list(sys.argv[1:] if arguments is None else arguments)
+    # cmd, and zsh where somebody types, hand on what other shells take for a comment
+    asked = asked[: asked.index("#")] if "#" in asked else asked
+    return stoppable(lambda: _ended(_parsed(asked)))
 
 
 def run() -> int:

@@ -554,3 +554,10 @@ def test_a_pattern_that_the_shell_left_alone_means_its_files(
     assert "g?.dxf" in capsys.readouterr().err
     assert run("verify", "out/*/*.stl") == 2
     assert "*.stl: no such file" in capsys.readouterr().err
+
+
+def test_what_a_line_of_the_readme_has_behind_its_command_is_no_word_of_it(capsys: pytest.CaptureFixture[str]) -> None:
+    """Shells that know no comments there hand them on: cmd, and zsh where somebody types."""
+    assert run("calc", "involute", "angle_deg=20", "#", "also:", "involute=0.037985", "--nothing") == 0
+    assert "0.0149" in capsys.readouterr().out
+    assert run("calc", "involute", "angle_deg=20", "#also:") == 2
