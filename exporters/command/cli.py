@@ -199,6 +199,10 @@ def _parser(told: Words) -> Parser:
     )
     version = told.text("show program's version number and exit")
     parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}", help=version)
+    default = told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages()))
+    # before a command it is heard too, and not undone by that
+    language: dict[str, Any] = {"metavar": told.term("command line", "L"), "help": default}
+    parser.add_argument("--language", **language)
 
     def shown(word: str) -> str:
         return told.term("command line", word)
@@ -216,8 +220,7 @@ def _parser(told: Words) -> Parser:
         made.set_defaults(command=name, json=False, quiet=False, run=run)
         return made
 
-    default = told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages()))
-    spoken = argument_of("--language", metavar=shown("L"), help=default)
+    spoken = argument_of("--language", default=argparse.SUPPRESS, **language)
     as_json = argument_of("--json", action="store_true", help=told.text("print the results as JSON"))
     quiet = argument_of("-q --quiet", action="store_true", help=told.text("print nothing if all is well"))
     to_file = told.text("write to a file, in UTF-8 (default: to the terminal)")
@@ -395,7 +398,8 @@ def _catalogue(options: argparse.Namespace) -> int:
     if verdicts[REFUSED] == total:
         from parts.base.refusal import SceneError
 
-        raise SceneError(options.scene, "--vary", ", ".join(options.vary), "every_row_refused", file="catalogue.csv")
+        first = {"key": entries[0]["key"], "why": entries[0]["why"], "file": "catalogue.csv"}
+        raise SceneError(options.scene, "--vary", ", ".join(options.vary), "every_row_refused", None, **first)
     return FAILED if verdicts[BAD] else DONE
 
 
@@ -473,14 +477,16 @@ def _check(options: argparse.Namespace) -> int:
 def _verify(options: argparse.Namespace) -> int:
     from exporters.command.tables import verify_table
     from exporters.production.recheck import recheck
-    from exporters.production.report import report_language
+    from exporters.production.report import NAME, report_language
 
     _check_language(options)
     language = options.language or report_language(options.files[0])
-    results, refused = _each(options.files, recheck, lambda: language)
+    # of all that lies in a folder the report is none that is held against it
+    files = [file for file in options.files if file.name != NAME] or options.files
+    results, refused = _each(files, recheck, lambda: language)
     failed = any(r.verdict.failures for r in results)
     if options.json:
-        _print_json(options.files, [r.told for r in results])
+        _print_json(files, [r.told for r in results])
     elif results and not (options.quiet and not failed):
         verify_table(results, words(language))
     return FAILED if failed else WRONG_INPUT if refused else DONE

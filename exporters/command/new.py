@@ -24,13 +24,15 @@ from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import built_in_scenes
-from parts.scene.load import ExportSpec, SceneInfo, plain_tables
+from parts.scene.load import PLAIN, ExportSpec, SceneInfo, plain_tables
 
 # parts of the scene: a spur gear, the part that another is made from, a second one of a kind; others by their kind
 _GEAR, _SOURCE, _OTHER = "gear", "source", "wheel"
 _SCHEMA = "higherpair.schema.json"
 _NEW = "higherpair new "
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
+# the headers of tables that are of no kind, by what they begin with
+_HEADERS = {header.strip("[]").partition(".")[0]: header for header in PLAIN}
 # tables of a plain scene, as they are printed
 _TABLES = ("scene", "parts", "instances", "mates", "drives", "steps", "boards", "beds", "exports", "checks")
 # a comment beside a key, colours are none; letters in a line of those that a scene begins with
@@ -166,32 +168,34 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
 def new_table(place: str, language: str = ENGLISH) -> str | None:
     """The tables that a key takes, ``KIND.KEY`` or deeper, each key with unit, range and default; None: it takes none.
 
-    ``exports`` stands for a kind.
+    A table of a scene that is of no kind, like ``exports``, stands for a kind, and may be asked for itself.
     """
     told, (kind, *names) = words(language), place.split(".")
-    tables, is_list = _tables_at(kind), False
-    if not names or not tables:
+    tables, header = _tables_at(kind), _HEADERS.get(kind, "")
+    if not tables or not (names or header):
         return None
+    is_list = header.startswith("[[")
     for name in names:
         fields = [f for table in tables for f in fields_of(table) if f.encode_name == name]
         tables = list(dict.fromkeys(one for f in fields for one in structs_of(f.type)))
         is_list = any(not tables_of(f) for f in fields)
-    head = {**{one: f"parts.{_called(one)}" for one in KINDS}, **dict.fromkeys(MATES, "mates"), "exports": "exports"}
-    there = ".".join([head.get(kind, "assemblies"), *names])
+    head = {**{one: f"parts.{_called(one)}" for one in KINDS}, **dict.fromkeys(MATES, "mates")}
+    there = ".".join([header.strip("[]") or head.get(kind, "assemblies"), *names])
     lines = [f"# {told.text('Lengths in mm, angles in degrees.')}"]
     for table in tables:
         config = table.__struct_config__
         tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
-        lines += ["", f"# {told.text(phrase_of(table))}.", f"[[{there}]]" if is_list else f"[{there}]", *tag,
-                  *_keys(fields_of(table), told)]  # fmt: skip
+        # of what a header names its keys say enough
+        phrase = [] if names == [] else [f"# {told.text(phrase_of(table))}."]
+        lines += ["", *phrase, f"[[{there}]]" if is_list else f"[{there}]", *tag, *_keys(fields_of(table), told)]
     # in letters that every terminal has, as all that is new
     return "\n".join(lines).replace("…", "...") + "\n" if tables else None
 
 
 def _tables_at(kind: str) -> list[type[Struct]]:
-    """The keys of a kind, or of ``exports``; none where there is no such kind."""
+    """The keys of a kind, or of a table of a scene that is of none; no table where there is no such kind."""
     known: Mapping[str, Any] = next((found for found in (KINDS, MATES, RECIPES) if kind in found), {})
-    return [known[kind].keys] if known else [ExportSpec] if kind == "exports" else []
+    return [known[kind].keys] if known else [PLAIN[_HEADERS[kind]]] if kind in _HEADERS else []
 
 
 def tables_of_kind(kind: str) -> list[str]:

@@ -8,9 +8,12 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, NoReturn
 
+from parts.base.reasons import REMEDIES
 from parts.base.texts import Words
 
 WRONG_INPUT = 2
+# figure dash, en dash, em dash, bar and minus, which editors make of -
+_PRINTED_DASHES = "\u2012\u2013\u2014\u2015\u2212"
 
 
 class Misused(Exception):
@@ -65,11 +68,13 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
     Misused
         Words that mean nothing.
     """
+    # the dashes of a text editor begin no option, and no value
+    if printed := next((word for word in arguments if word[0:1] in _PRINTED_DASHES), None):
+        _refuse_strange(parser, [printed], parser.prog, _options_of(parser))
     options, rest = parser.parse_known_args(arguments)
     several: tuple[str, Callable[[str], object]] | None = getattr(options, "several", None)
     if strange := [word for word in rest if several is None or word.startswith("-")]:
-        text = parser.words.text("unrecognized arguments: %s") % " ".join(strange)
-        _refuse(parser.words, text, f"{parser.prog} {options.command}")
+        _refuse_strange(parser, strange, f"{parser.prog} {options.command}", _options_of(parser, options.command))
     if several is not None:
         name, made_by = several
         found = [file for word in map(str, (*getattr(options, name), *rest)) for file in _matched(word)]
@@ -84,6 +89,26 @@ def _matched(word: str) -> list[str]:
     import glob
 
     return sorted(glob.glob(word)) or [word]
+
+
+def _options_of(parser: Parser, command: str | None = None) -> list[str]:
+    """The options of one of the commands, or of all of them."""
+    commands = {name: made for a in parser._actions if isinstance(a.choices, dict) for name, made in a.choices.items()}
+    asked = [*commands.values(), parser] if command is None else [commands[command]]
+    return [one for made in asked for one in made._option_string_actions]
+
+
+def _refuse_strange(parser: Parser, strange: Sequence[str], command: str, known: Sequence[str]) -> NoReturn:
+    """Words that are none of the options, with that which the first was probably meant for."""
+    from parts.base.refusal import meant
+
+    text = parser.words.text("unrecognized arguments: %s") % " ".join(strange)
+    bare = {one.lstrip("-"): one for one in known if one.startswith("--")}
+    word = strange[0].lstrip("-" + _PRINTED_DASHES).partition("=")[0]
+    if close := meant(word, bare):
+        remedy = parser.words.text(REMEDIES["meant"], value=bare[str(close.value)])
+        text = parser.words.text("{why}; {remedy}", why=text, remedy=remedy)
+    _refuse(parser.words, text, command)
 
 
 def _columns() -> int:

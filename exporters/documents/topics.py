@@ -24,6 +24,7 @@ from parts.base.texts import Words, languages
 from parts.base.texts import words as told
 from parts.pages.inputs import GEARS, PLACE, table_of
 from parts.pages.page import Picture, Sheet
+from parts.scene.files import built_in_scenes
 
 if TYPE_CHECKING:
     from parts.drawing.expected import Expected
@@ -145,9 +146,20 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
             PLACE, " ".join(words[max(apart - words[apart].startswith("="), 0) : apart + 2]), None, "write_key_value"
         )
     addresses = [word for word in words if "=" not in word or os.path.isfile(word)]
+    typed = table_of([word for word in words if word not in addresses])
+    scenes = built_in_scenes()
+    for word in addresses:
+        if word in scenes or os.path.exists(word) or Path(word).suffix:
+            continue
+        # one alone that is like a scene and no key is told as one
+        if (
+            len(addresses) > 1
+            or meant(word, scenes) is None
+            or word in keys_of_topic(topic)[0].__struct_encode_fields__
+        ):
+            raise SceneError(PLACE, word, None, "neither_scene_nor_key")
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
-    typed = table_of([word for word in words if word not in addresses])
 
     def begun(table: Mapping[str, Any]) -> tuple[Callable[[], Sheet], str]:
         return _begun(topic, addresses, plain_numbers(table, PLACE, topic), language)

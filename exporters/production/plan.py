@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -95,6 +96,16 @@ def _check_known(scene: SceneFile, source: str, only_parts: list[str], only_form
     ):
         for name in asked:
             if name not in known:
+                several = [one for one in re.split(r"[\s,;]+", name) if one in known]
+                if len(several) > 1:
+                    raise SceneError(
+                        source,
+                        option,
+                        name,
+                        "one_at_a_time",
+                        None,
+                        asked=" ".join(f"{option} {one}" for one in several),
+                    )
                 raise SceneError(source, option, name, code, meant(name, known), known=known)
 
 

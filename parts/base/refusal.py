@@ -68,6 +68,8 @@ REMOVED = Nearest(None)
 
 # so many of a list are told, of one that is longer than that
 _FEW, _LONG = 8, 10
+# as like as two words seldom are by chance
+_SURE = 0.8
 # letters of a value, and of a place, that are shown
 _SHORT, _PLACE = 60, 160
 # words of other books for our keys and values, to which no letter leads
@@ -78,22 +80,32 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
     """The known word that was probably meant, or nothing."""
     import difflib
 
-    word = None if word is None else in_latin(str(word))
-    plain = "" if word is None else re.sub("[ _-]+", "_", word.lower())
-    if plain in SYNONYMS and word not in known:
-        # letters lead such a word astray
-        match = [name for name in SYNONYMS[plain] if name.partition(".")[0] in known]
-    else:
-        # among many words some have half of its letters by chance, and so has one of two letters that ends in one
-        least = 0.6 if len(known) > _LONG else 0.5
-        near = [name for name in known if len(plain) > 2 or name[:1] == plain[:1] or sorted(name) == sorted(plain)]
-        # letters in another order are a slip of the fingers
-        swapped = [name for name in near if sorted(name) == sorted(plain)]
-        match = [] if word is None else swapped[:1] or difflib.get_close_matches(word, near, 1, least)
-    if not match and word is not None:
-        begun = [name for name in known if name.startswith(f"{plain}_")]
-        match = [name for name in known if name.lower() == word.lower()] or (begun if len(begun) == 1 else [])
+    if word is None:
+        return None
+    word = in_latin(str(word))
+    plain = _plain(word)
+    # capitals, blanks and hyphens aside; what no letter leads to; letters in another order, a slip of the fingers
+    match = [name for name in known if _plain(name) == plain][:1]
+    match = match or [name for name in SYNONYMS.get(plain, ()) if name.partition(".")[0] in known]
+    match = match or [name for name in known if sorted(name) == sorted(plain)][:1]
+    near = [name for name in known if len(plain) > 2 and (plain not in SYNONYMS or _plain(name).startswith(plain))]
+    match = match or difflib.get_close_matches(word, near, 1, _SURE)
+    if match:
+        return Nearest(match[0], "meant")
+    # names that have the whole word; else others begin as it does, or have one of its words
+    near = [name for name in known if plain and f"_{plain}_" in f"_{_plain(name)}_"]
+    alone = near if len(near) == 1 else []
+    if not near and plain not in SYNONYMS:
+        own = {*plain.split("_")}
+        near = [name for name in known if name[:1].lower() == plain[:1] or own & {*_plain(name).split("_")}]
+    # among many words some have half of its letters by chance
+    match = difflib.get_close_matches(word, near, 1, 0.6 if len(known) > _LONG else 0.5) or alone
     return Nearest(match[0], "meant") if match else None
+
+
+def _plain(word: str) -> str:
+    """A word in small letters, with one _ between its words."""
+    return re.sub("[ _-]+", "_", word.lower())
 
 
 def placed(source: str, place: str, refusal: ParameterError, unit: str = "") -> SceneError:

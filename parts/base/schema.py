@@ -150,12 +150,41 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
             quoted = format_value(format_value(value))
             code = "number_not_quoted" if allowed is None else "number_not_quoted_of"
             return SceneError(source, where, value, code, None, last=keys[-1], quoted=quoted, allowed=allowed)
+        if nearest is None and not keys[-1].isdigit():
+            nearest = _number_meant(value, _types_of(_owner(kind, keys[:-1], table)).get(keys[-1]))
         # a number in place of a table that has a plain key beside it: bore and bore_diameter
         if type(value) in (int, float) and has_key(_owner(kind, keys[:-1], table), f"{keys[-1]}_diameter"):
             nearest = Nearest(f"{keys[-1]}_diameter", "meant")
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
+
+
+# a number in quotes, a fraction or a share, with a sign of print, with its unit or with what has slipped in about it
+_WRITTEN = re.compile(
+    r"[\s\"'\u201c\u201d\u00ab\u00bb=(]*([-+\u2212\u2013]?)(\d+\.?\d*|\.\d+)(?:/(\d+\.?\d*))?\s*([^\W\d_/]*|\W*)"
+)
+_UNITS = {"mm": ["mm", "\u043c\u043c"], "degrees": ["\u00b0", "deg"], "%": ["%"]}
+
+
+def _number_meant(value: object, kind: object) -> Nearest | None:
+    """The number that a key may hold and that was probably meant by what is none of its type, or nothing."""
+    if isinstance(value, list) and len(value) == 1:
+        (value,) = value
+    if isinstance(value, str) and (found := _WRITTEN.fullmatch(value)):
+        sign, digits, by, behind = found.groups("")
+        behind, unit = behind.strip("\"'\u201c\u201d\u00ab\u00bb;,). "), _unit(kind)
+        if behind not in ("", "%", unit, *_UNITS.get(unit, [])) or float(by or 1) == 0:
+            return None
+        value = float(digits) / float(by or 1) / (100 if behind == "%" != unit else 1) * (1 if sign in "+" else -1)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return None
+    number = int(value) if float(value).is_integer() else float(f"{value:.12g}")
+    try:
+        msgspec.convert(number, kind)
+    except msgspec.ValidationError:
+        return None
+    return Nearest(number, "meant")
 
 
 def _form_of(owner: type[Struct], name: str) -> str:

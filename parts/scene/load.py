@@ -238,6 +238,8 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     except NotAFileError:
         raise SceneError(address, "", None, "not_a_file", None, most=MOST_BYTES) from None
     except FileNotFoundError:
+        if _is_kind(address):
+            raise SceneError(address, "", None, "kind_no_scene", None, kind=address) from None
         found = _meant_scene(path, address, built_in)
         raise SceneError(address, "", None, "no_such_scene", found, known=list(built_in)) from None
     except OSError as error:
@@ -252,6 +254,14 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     if name.partition(".")[0].lower() in DEVICE_NAMES:
         raise SceneError(address, "", None, "device_name")
     return scene_from_toml(raw_bytes, str(path), name, language)
+
+
+def _is_kind(address: str) -> bool:
+    """Whether a kind of part, mate or assembly is asked for as a scene."""
+    from parts.mates.registry import MATES
+    from parts.recipes.registry import RECIPES
+
+    return address in (*KINDS, *MATES, *RECIPES)
 
 
 def _meant_scene(path: Path, address: str, built_in: Collection[str]) -> Nearest | None:
@@ -294,11 +304,11 @@ def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str |
             raise
         from parts.scene.homes import at_home
 
-        raise at_home(refusal, raw, _PLAIN) from refusal
+        raise at_home(refusal, raw, PLAIN) from refusal
 
 
 # the tables of a scene that are of no kind: their headers and keys
-_PLAIN: dict[str, type[Struct]] = {
+PLAIN: dict[str, type[Struct]] = {
     "[scene]": SceneInfo, "[checks]": ChecksSpec, "[[exports]]": ExportSpec, "[instances.NAME]": InstanceTable,
     "[[drives]]": DriveSpec, "[[steps]]": StepSpec, "[boards.NAME]": BoardSpec, "[beds.NAME]": BedSpec,
 }  # fmt: skip

@@ -141,6 +141,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         row = ", ".join(re.split(r"\s*[,;]\s*", found[2]))
         return "no_brackets", {"line": number, "key": found[1], "value": row}
     # a letter right behind a digit may be meant for one
+    if (found := _UNIT.fullmatch(line)) and found[4] == "%":
+        return "a_share", {"line": number, "key": found[1], "value": f"{float(found[2]) / 100:.12g}"}
     if (found := _UNIT.fullmatch(line)) and look_alike(found[1] if found[3] else line) is None:
         units = {name: float(size) for name, size in rows_of(__file__, "units")}
         if size := units.get(found[4].lower()):

@@ -93,7 +93,7 @@ NO_TABLES = [
     ("spur_gear.bor", "table", "spur_gear.bore"),
     ("spur_gear.bore.flat", "table", "spur_gear.bore"),
     ("plate.hole", "table", "plate.holes"),
-    ("exports", "table", ""),
+    ("exports.paper", "table", ""),
     ("gear.bore", "kind", ""),
 ]
 

@@ -338,3 +338,154 @@ def test_a_poor_part_is_told_whatever_file_it_is_in(
     assert main(["build", str(file), "--out", str(tmp_path), "--no-verify"]) == 0
     told = [line for line in capsys.readouterr().out.splitlines() if "undercut" in line]
     assert told == ["note: a: the tooth is undercut: profile shift 0.0000 is below x_min = 0.2981"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        ('module = "2"', "; did you mean 2?"),
+        ('module = "2 mm"', "; did you mean 2?"),
+        ('module = "1/2"', "; did you mean 0.5?"),
+        ('module = "\u22122"', "at most 1000 mm"),
+        ('profile_shift_coefficient = "\u22120.3"', "; did you mean -0.3?"),
+        ('profile_shift_coefficient = "30 %"', "; did you mean 0.3?"),
+        ('profile_shift_coefficient = "30 mm"', "at most 10 modules"),
+        ('module = "2 in"', "at most 1000 mm"),
+        ("module = [2.5]", "; did you mean 2.5?"),
+        ("module = [2, 3]", "at most 1000 mm"),
+        ("number_of_teeth = 17.0", "; did you mean 17?"),
+        ("number_of_teeth = 17.5", "at most 10000"),
+        ("number_of_teeth = true", "at most 10000"),
+        ("profile_shift_coefficient = 30%", "line 4: a share is written as a number, without %: "
+                                            "profile_shift_coefficient = 0.3"),
+    ],
+)  # fmt: skip
+def test_a_number_that_people_write_is_told_as_it_is_read(
+    typed: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    key = typed.partition(" = ")[0]
+    rest = re.sub(rf"(?m)^{key} = .*\n", "", PAIR.partition("[parts.b]")[0])
+    lines = rest.splitlines()
+    text = "\n".join([*lines[:3], typed, *lines[3:]])
+    said = line(tmp_path, capsys, text)
+    assert told in said
+    assert said.endswith(told) or "did you mean" not in said
+    if found := re.search(r"did you mean (.+)\?$", said):
+        (tmp_path / "x.toml").write_text(text.replace(typed, f"{key} = {found[1]}"))
+        assert main(["check", str(tmp_path / "x.toml")]) == 0
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "meant"),
+    [
+        ('kind = "spur_gear"', 'kind = "helical_gear"', "spur_gear"),
+        ('kind = "spur_gear"', 'kind = "internal_gear"', "ring_gear"),
+        ("number_of_teeth = 17", "tooth_number = 17", "number_of_teeth"),
+        ("[[mates]]", "[[pairs]]", "mates"),
+        ('first = "a"', 'gear1 = "a"', "first"),
+        ("[parts.a]", '[scene]\nunits = "inch"\n[parts.a]', None),
+        ("module = 2.0", "torque = 2.0", None),
+    ],
+)
+def test_a_word_of_other_books_leads_to_ours_and_no_word_to_one_like_it_by_chance(
+    right: str, wrong: str, meant: str | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = line(tmp_path, capsys, PAIR.replace(right, wrong, 1))
+    assert said.endswith(f"; did you mean {meant}?") if meant else "did you mean" not in said
+
+
+@pytest.mark.parametrize(
+    ("command", "told"),
+    [
+        ("--language uk", "бракує аргументів: КОМАНДА;"),
+        ("build spur_gear", "spur_gear: is a kind, no scene; `higherpair new spur_gear` begins a scene with it"),
+        ("check external_gear_pair", "`higherpair new external_gear_pair` begins"),
+        ("build planetary_set", "`higherpair new planetary_set` begins"),
+        ("build james \u2014out x", "unrecognized arguments: \u2014out; did you mean --out?"),
+        ("check james \u2013quiet", "unrecognized arguments: \u2013quiet; did you mean --quiet?"),
+        ("build james --output x", "unrecognized arguments: --output; did you mean --out?"),
+        ("build james -out x", "unrecognized arguments: -out; did you mean --out?"),
+        ("build james --format dxf,stl", "takes one at a time: --format dxf --format stl"),
+        ("build james --part sun,ring", "takes one at a time: --part sun --part ring"),
+        ("calc gear_pair james", "did you mean gear-pair?"),
+        ("calc thread M20", "M20: is neither a scene nor key=value, like number_of_teeth=23"),
+        ("calc spur module number_of_teeth=23", "module: is neither a scene"),
+        ("calc spur module:2 number_of_teeth:23", "module:2: is neither a scene"),
+        ("calc spur practicum_pair pinion", "pinion: is neither a scene"),
+        ("calc train wheels=[20,40]", "did you mean teeth?"),
+        ("calc bevel module=2 number_of_teeth=20 mate=40", "did you mean mate_number_of_teeth?"),
+        ("calc geneva slots=6", "did you mean number_of_slots?"),
+        ("new parts", "unknown kind"),
+    ],
+)
+def test_a_slip_in_a_command_is_told_in_one_line(
+    command: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    try:
+        code = main(command.split())
+    except SystemExit as ended:
+        code = int(ended.code or 0)
+    said = capsys.readouterr()
+    (one,) = said.err.splitlines()
+    assert (code, said.out) == (2, "")
+    assert told in one
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("before", [True, False])
+def test_the_language_is_heard_before_the_command_and_behind_it(
+    before: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = ["--language", "uk"]
+    assert main([*asked, "list"] if before else ["list", *asked]) == 0
+    assert "види деталей" in capsys.readouterr().out
+    # the last word counts
+    assert main([*asked, "list", "--language", "en"]) == 0
+    assert "kinds of parts" in capsys.readouterr().out
+    with pytest.raises(SystemExit) as ended:
+        main([*asked, "--help"])
+    assert not ended.value.code
+    assert "використання: higherpair" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("table", "header", "key"),
+    [
+        ("scene", "[scene]", "title"), ("exports", "[[exports]]", "kerf"), ("boards", "[boards.NAME]", "grain"),
+        ("beds", "[beds.NAME]", "depth"), ("drives", "[[drives]]", "turns"), ("checks", "[checks]", "interference"),
+        ("instances", "[instances.NAME]", "rotation_deg"), ("steps", "[[steps]]", "bring"),
+    ],
+)  # fmt: skip
+def test_the_keys_of_every_table_of_a_scene_are_told(
+    table: str, header: str, key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["new", table]) == 0
+    shown = capsys.readouterr().out.splitlines()
+    assert header in shown
+    assert any(re.match(rf"(# )?{key} = ", row) for row in shown)
+    # and a wrong key of a long one says where
+    if table == "exports":
+        said = line(tmp_path, capsys, PAIR + 'out = "x"\n')
+        assert said.endswith("more, see `higherpair new exports`")
+
+
+def test_all_that_lies_in_a_folder_can_be_verified(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a shell makes of * has the report too, which is held against nothing."""
+    (tmp_path / "x.toml").write_text(PAIR)
+    assert main(["build", str(tmp_path / "x.toml"), "--out", str(tmp_path), "--quiet"]) == 0
+    files = [str(file) for file in (tmp_path / "x").iterdir()]
+    assert any(file.endswith("report.json") for file in files)
+    assert main(["verify", *files]) == 0
+    assert not capsys.readouterr().err
+
+
+def test_why_no_row_of_a_catalogue_can_be_built_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "x.toml").write_text(PAIR)
+    assert main(["catalogue", str(tmp_path / "x.toml"), "--vary", "a.module=3,4", "--out", str(tmp_path)]) == 2
+    told = "leaves no row that can be built; the first: mates[1]: parts.b.module: must be that of its mate; "
+    assert told in capsys.readouterr().err
+    assert (
+        main(["catalogue", str(tmp_path / "x.toml"), "--vary", "a.number_of_teeth=8-20", "--out", str(tmp_path)]) == 2
+    )
+    assert "; the first: parts.a.number_of_teeth: must be a whole number; " in capsys.readouterr().err

@@ -586,7 +586,7 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("module = 007.50", "line 2: write module = 7.50"),
         ("kind = `plate`", 'line 2: words stand in straight quotes: kind = "plate"'),
         ("kind = 'plate\"", "line 2: the quotes of kind are not closed"),
-        ("share = 20%", "line 2: numbers stand without units: share = 20"),
+        ("share = 20%", "line 2: a share is written as a number, without %: share = 0.2"),
         ("speed = 0.5 м/с", "line 2: numbers stand without units: speed = 0.5"),
         ("area = 3 mm²  # of all", "line 2: numbers stand without units: area = 3"),
         ("at = (0, -1.5, 3)", "line 2: a list stands in brackets: at = [0, -1.5, 3]"),
