@@ -11,6 +11,7 @@ from shapely import affinity
 
 from exporters.command.cli import main
 from geometry.approximation.chords import approximate_profile
+from geometry.plane.distance import Verdict
 from parts.base.part import Part
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
@@ -26,6 +27,10 @@ PAIRS = [
     # a much shifted pinion's root
     (14, 40, 0.88, 0.96, 14.5, 0.0),
     (13, 29, 0.73, 0.92, 14.5, 0.0),
+    # corners that run into the fillet above where it begins
+    (10, 36, 0.4151, 0.917897, 20.0, 0.0),
+    (18, 42, 0.71, 1.25, 14.5, 0.0),
+    (31, 73, 0.72, 0.88, 14.5, 0.0),
 ]
 TURNS = 16
 
@@ -92,6 +97,33 @@ def test_default_tips_keep_off_fillets_and_roots_and_given_ones_stay(
     assert parts["pinion"].circles["tip_diameter"] <= tips["pinion"]
     assert parts["ring"].circles["tip_diameter"] >= tips["ring"]
     assert any(abs(parts[name].circles["tip_diameter"] - tip) > 0.01 for name, tip in tips.items())
+
+
+@pytest.mark.parametrize(
+    ("pair", "part"),
+    [
+        ((10, 36, 0.4151, 0.917897, 20.0, 0.0), "pinion"), ((24, 75, 0.78, 1.25, 20.0, 0.0), "pinion"),
+        ((28, 72, 0.88, 1.01, 20.0, 15.0), "pinion"), ((34, 89, 0.5, 0.84, 14.5, 0.0), "pinion"),
+        ((32, 49, 0.27, 1.06, 20.0, 0.0), "ring"), ((24, 45, 0.66, 1.22, 14.5, 0.0), "ring"),
+        ((33, 51, 0.88, 1.56, 14.5, 15.0), "ring"),
+    ],
+    ids=str,
+)  # fmt: skip
+def test_the_limit_of_a_tip_is_where_its_corner_touches_the_mates_fillet(
+    pair: tuple[int, int, float, float, float, float], part: str
+) -> None:
+    """The gap of both outlines over a pitch knows nothing of that limit: 0.5 um on either side of it."""
+
+    def made(**tips: float) -> Any:
+        scene = scene_from_dict(scene_of(pair, **tips), "t", "t")
+        return make_parts(scene, "t")[1][0]
+
+    limits = dict(zip(("pinion", "ring"), made().pair.tip_limits, strict=True))
+    off = 0.001 if part == "pinion" else -0.001
+    inside, beyond = (made(**{part: limits[part] + sign * off}).contact(0.0, 0.0, None) for sign in (-1, 1))
+    assert inside.verdict is Verdict.CONTACT
+    assert beyond.verdict is Verdict.OVERLAP
+    assert beyond.worst.gap > -0.001
 
 
 @pytest.mark.parametrize("checked", [False, True])
