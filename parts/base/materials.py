@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 # a thickness in a material's name
 _MM = re.compile(r"(\d) ?mm\b")
-# and the one size of a sheet: of a rod or a bar there is a sign before it
-_SHEET = re.compile(r"(?<![\w.,×Øø⌀])(\d+(?:[.,]\d+)?) ?(?:mm|мм)\b")
-_SECTION = re.compile(r"[Øø⌀×*]|\d ?[xх] ?\d")
+# and the one size of a sheet, in capitals: of a rod or a bar there is a sign before it
+_SHEET = re.compile(r"(?<![\w.,])(\d+(?:[.,]\d+)?) ?MM\b")
+_SECTION = re.compile(r"[Ø⌀×*]|\d ?X ?\d")
 
 
 def density_of(material: str | None) -> float | None:
@@ -69,8 +69,9 @@ def material_told(material: str | None, told: Words) -> str:
 
 def thickness_told(material: str) -> float | None:
     """The thickness that a material's name tells ("plywood 3 mm"), mm; None: none, or the section of a rod."""
-    found = _SHEET.search(material)
-    return None if found is None or _SECTION.search(material) else float(found[1].replace(",", "."))
+    folded = _fold(material)
+    found = _SHEET.search(folded)
+    return None if found is None or _SECTION.search(folded) else float(found[1].replace(",", "."))
 
 
 class _Found(Record):

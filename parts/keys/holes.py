@@ -16,7 +16,7 @@ from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, Round
 from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import nearest_key, value_at
 from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, part_mm
-from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
+from parts.keys.splines import Clearance, InvoluteSplineTable, StraightSplineTable
 
 if TYPE_CHECKING:
     from geometry.solids.windows import RoundHoles
@@ -31,14 +31,20 @@ CornerRadius = Annotated[float, part_mm("rounding of the corners", least=0)]
 PitchCircle = Annotated[float, part_mm("circle of their centres", above=0, example=28.0)]
 
 
+def _widened(bore: Bore, clearance: float) -> Bore:
+    """A bore whose every surface stands so far, mm, off that of its shaft."""
+    return bore.widened(clearance) if clearance else bore
+
+
 class RoundBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="round"):
     """Round bore, the same as bore_diameter."""
 
     diameter: Diameter
+    clearance: Clearance = 0.0
 
     def bore(self) -> Bore:
         """The bore of these sizes."""
-        return RoundBore(self.diameter)
+        return _widened(RoundBore(self.diameter), self.clearance)
 
 
 _CORNER_RADIUS = part_mm("at the keyway's bottom; default: the standard's largest", least=0, example=0.16)
@@ -54,6 +60,7 @@ class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="ke
     width: Annotated[float, part_mm("width b; default: the standard's", above=0, example=2.0)] | None = None
     depth: Annotated[float, part_mm("depth t2 in the hub; default: the standard's", above=0, example=1.0)] | None = None
     corner_radius: Annotated[float, _CORNER_RADIUS] | None = None
+    clearance: Clearance = 0.0
 
     def bore(self) -> Bore:
         """The keyway of the standard, each size replaced by one that is given; of one's own where both are."""
@@ -66,7 +73,8 @@ class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="ke
             if radius is None:
                 # a keyway of other sizes may have less room for it
                 radius = min(row.most_radius, width / 4, depth / 4)
-        return KeywayBore(self.diameter, width, depth, radius or 0.0, self.keys, math.radians(self.angle_deg))
+        own = KeywayBore(self.diameter, width, depth, radius or 0.0, self.keys, math.radians(self.angle_deg))
+        return _widened(own, self.clearance)
 
 
 class FlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="D"):
@@ -74,11 +82,13 @@ class FlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="
 
     diameter: Diameter
     flat: Annotated[float, part_mm("from the flat to the opposite side", above=0, example=7.0)]
+    clearance: Clearance = 0.0
     angle_deg: Direction = 90.0
 
     def bore(self) -> Bore:
         """The bore of these sizes."""
-        return FlatBore(self.diameter, self.flat - self.diameter / 2, 1, math.radians(self.angle_deg))
+        own = FlatBore(self.diameter, self.flat - self.diameter / 2, 1, math.radians(self.angle_deg))
+        return _widened(own, self.clearance)
 
 
 class DoubleFlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="double_D"):
@@ -86,11 +96,13 @@ class DoubleFlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape",
 
     diameter: Diameter
     across_flats: AcrossFlats
+    clearance: Clearance = 0.0
     angle_deg: Direction = 90.0
 
     def bore(self) -> Bore:
         """The bore of these sizes."""
-        return FlatBore(self.diameter, self.across_flats / 2, 2, math.radians(self.angle_deg))
+        own = FlatBore(self.diameter, self.across_flats / 2, 2, math.radians(self.angle_deg))
+        return _widened(own, self.clearance)
 
 
 class PolygonTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
@@ -98,12 +110,14 @@ class PolygonTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
 
     across_flats: AcrossFlats
     corner_radius: CornerRadius = 0.0
+    clearance: Clearance = 0.0
     angle_deg: Direction = 90.0
     corners: ClassVar[int]
 
     def bore(self) -> Bore:
         """The bore of these sizes."""
-        return PolygonBore(self.corners, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+        own = PolygonBore(self.corners, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+        return _widened(own, self.clearance)
 
 
 class HexagonTable(PolygonTable, tag="hexagon"):

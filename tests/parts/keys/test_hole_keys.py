@@ -280,3 +280,54 @@ def test_many_groups_of_holes_that_meet_are_refused_at_once() -> None:
         make_parts(scene_from_dict({"parts": {"p": part}}, "s", "s"), "s")
     assert refused.value.code == "holes_touch_another_group"
     assert process_time() - began < 10
+
+
+def shaft(shape: str, grown: float) -> Any:
+    """The section of what goes into each bore, drawn by hand and moved out by ``grown`` mm on all sides."""
+    import shapely
+
+    def disk(radius: float) -> Any:
+        return shapely.Point(0, 0).buffer(radius + grown, quad_segs=500)
+
+    if shape == "keyway":
+        # DIN 6885 for 12 to 17 mm: 5 wide, 2.3 deep in the hub
+        return disk(7).union(shapely.box(-2.5 - grown, 0, 2.5 + grown, 9.3 + grown))
+    if shape in ("D", "double_D"):
+        low = -20.0 if shape == "D" else -4.5 - grown
+        return disk(5).intersection(shapely.box(-20, low, 20, 4.5 + grown))
+    if shape == "round":
+        return disk(5)
+    sides = 6 if shape == "hexagon" else 4
+    corners = (5 + grown) / math.cos(math.pi / sides) * np.exp(1j * math.pi * (2 * np.arange(sides) + 1) / sides) * 1j
+    return shapely.Polygon(np.column_stack([corners.real, corners.imag]))
+
+
+@pytest.mark.parametrize(
+    ("shape", "sizes"),
+    [
+        ("round", {"diameter": 10}), ("keyway", {"diameter": 14, "corner_radius": 0}),
+        ("D", {"diameter": 10, "flat": 9.5}), ("double_D", {"diameter": 10, "across_flats": 9}), ("hexagon", {"across_flats": 10}),
+        ("square", {"across_flats": 10}),
+    ],
+)  # fmt: skip
+def test_a_clearance_moves_every_wall_of_a_bore_off_its_shaft(
+    shape: str, sizes: dict[str, float], tmp_path: Path
+) -> None:
+    """As far as that of splines does, along the normal: 0.15 mm; the STL is cut by trimesh, the shaft drawn by hand."""
+    import shapely
+    import trimesh
+
+    keys = {"bore": {"shape": shape, **sizes, "clearance": 0.15}}
+    exports = {"format": "stl", "tolerance": 0.001}
+    assert build(plan_build(scene(keys, exports), "t.toml", [], []), tmp_path).well
+    mesh = trimesh.load(tmp_path / "gear.stl")
+    edges = trimesh.intersections.mesh_plane(mesh, [0, 0, 1], [0, 0, 5.0])[:, :, :2].round(7)
+    (gear, *_) = sorted(shapely.polygonize(shapely.linestrings(edges)).geoms, key=lambda face: -face.area)
+    (hole,) = (shapely.Polygon(ring) for ring in gear.interiors)
+    assert hole.symmetric_difference(shaft(shape, 0.15)).area < 0.002 * hole.length
+    assert shapely.distance(hole.exterior, shaft(shape, 0.0).exterior) == pytest.approx(0.15, abs=0.002)
+
+
+def test_a_clearance_that_leaves_no_rim_is_told() -> None:
+    assert "bore" in (told := refused({"bore": {"shape": "D", "diameter": 10, "flat": 9, "clearance": 30}}))
+    assert "works" in told or "at most" in told
