@@ -306,8 +306,8 @@ def shaft(shape: str, grown: float) -> Any:
     ("shape", "sizes"),
     [
         ("round", {"diameter": 10}), ("keyway", {"diameter": 14, "corner_radius": 0}),
-        ("D", {"diameter": 10, "flat": 9.5}), ("double_D", {"diameter": 10, "across_flats": 9}), ("hexagon", {"across_flats": 10}),
-        ("square", {"across_flats": 10}),
+        ("D", {"diameter": 10, "flat": 9.5}), ("double_D", {"diameter": 10, "across_flats": 9}),
+        ("hexagon", {"across_flats": 10}), ("square", {"across_flats": 10}),
     ],
 )  # fmt: skip
 def test_a_clearance_moves_every_wall_of_a_bore_off_its_shaft(
