@@ -14,8 +14,9 @@ from parts.base.texts import filled
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.part_sheet import Block, part_sheet
+from parts.drawing.runouts import with_runouts
 from parts.drawing.working import PartDrawing, Subject
-from parts.keys.working import ZONES, WorkingTable, told_sizes
+from parts.keys.working import RUNOUTS, ZONES, WorkingTable, told_sizes
 from parts.pages.data_table import draw_data_table, table_sizes
 from parts.scene.data_tables import part_table
 
@@ -36,11 +37,14 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     if not known:
         kinds = [name for name, kind in KINDS.items() if kind.drawing]
         raise wanted.refused("purpose", export.purpose, "draws_only_what_is_not_here", kinds=kinds)
-    found = []
+    found, runs, wishes = list[tuple[str, Expected]](), set[str](), export.drawing or WorkingTable()
     drawn = export.parts or known
     for name in drawn:
-        part, wishes = parts[name], export.drawing or WorkingTable()
-        drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
+        part = parts[name]
+        subject = Subject(part, wishes, asked.language)
+        plain = import_module(str(part.made_by.drawing)).part_drawing(subject)
+        drawing, keys = with_runouts(plain, subject)
+        runs |= keys
         _check_zones(drawing, wishes, wanted)
         try:
             table = part_table(part, wanted.scene, wanted.placing, parts)
@@ -59,6 +63,9 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             # of many, the one that has no room
             told = {"part": name, "why": filled(reason(error.code), **error.numbers)}
             raise ParameterError(error.name, error.value, "drawing_of_part", error.nearest, **told) from error
+    for key in RUNOUTS:
+        if (size := getattr(wishes, key)) is not None and key not in runs:
+            raise wanted.refused(f"drawing.{key}", size, "no_runout_here")
     return found
 
 

@@ -52,6 +52,11 @@ _NEARBY, _AROUND = (1.0, 2.0, 3.0, 4.5), (45.0, -45.0, 135.0, -135.0, 0.0, 180.0
 _ABOVE = 2.2
 # from words of a title to the middle of the sign of a view that is turned
 _SIGN = 5.0
+# the frame of a tolerance and that of a datum (GOST 2.308): its height, from its lines to words; the triangle of a
+# datum, from that to its frame; a leader's end beside a frame
+_FRAME, _WITHIN, _TRIANGLE, _STUB, _SHELF = 7.0, 1.5, 3.5, 2.5, 3.0
+# lines that fill that triangle
+_FILL = 17
 # the sign of roughness: heights of its legs; where its words begin
 _SHORT, _LONG, _WORDS = 3.5, 8.0, 5.2
 _SLOPE = math.tan(math.radians(30))
@@ -279,6 +284,12 @@ class _Layout:
         if best is None:
             raise _NoRoomError(one)
         drawn = self._drawn(best.drawn, best.text)
+        if (framed := best.framed) is not None:
+            for line in (*framed.stub, *framed.lines):
+                self._stroke(_DIMENSION, line)
+            self.canvas.texts += framed.texts
+            self.ink.boxes.append(framed.room)
+            self.ink.note({"leader": framed.stub})
         if best.told and not isinstance(one, Note):
             self._dimension(one, best.told, best.text, *drawn)
         if best.row is not None:
@@ -292,11 +303,18 @@ class _Layout:
             for place, more in zip(some, self.ink.costs([place.lines for place in some]), strict=True):
                 # of two that cost as much the nearer one
                 total = place.cost + more, place.cost
-                if total < least and self.ink.holds(place.all_lines, place.text.box):
+                if total < least and self._has_room(place):
                     best, least = place, total
             if some[-1].least > least[0]:
                 break
         return best
+
+    def _has_room(self, place: _Place) -> bool:
+        """Whether all words and lines of a place are free of others."""
+        framed = place.framed
+        if framed is None:
+            return self.ink.holds(place.all_lines, place.text.box)
+        return self.ink.holds([*place.all_lines, *framed.stub], place.text.box) and self.ink.holds([], framed.room)
 
     def _sizes(self, size: Size, coming: Sequence[complex]) -> Iterator[_Place]:
         """Where a linear dimension may stand, in the rows of its side.
@@ -336,19 +354,21 @@ class _Layout:
             level, (low, high) = levels[k], levels[k].span
             past = [_along(p, level.out) for p in coming]
             for begin in _begins(low, high, wide, _along(self.body.middle, level.out)):
-                reach = min(low, begin), max(high, begin + wide)
-                # chains share their ends
-                if any(_meet(reach, taken) for taken in level.row):
-                    continue
-                if any(begin - 2 * FREE < place < begin + wide + 2 * FREE for place in past):
-                    continue
                 # words stand above their line, those of an upright one on its left
                 if level.is_upright:
                     text = rising_text(words, complex(level.at - _GAP, begin))
                 else:
                     text = text_of(words, complex(begin, level.at + _GAP))
                 lines = level.lines((begin, begin + wide))
-                yield _Place(lines, level.arrows, text, level.cost, level.told, known[k], level.row, reach)
+                place = _Place(lines, level.arrows, text, level.cost, level.told, known[k], level.row)
+                for one_way, taken in level.flagged(place, one.datum) if one.datum else ((place, ()),):
+                    spans = (begin, begin + wide), *taken
+                    reach = min(low, *(a for a, _ in spans)), max(high, *(b for _, b in spans))
+                    # chains share their ends
+                    if any(_meet(reach, other) for other in level.row) or (taken and _meet(*spans)):
+                        continue
+                    if not any(a - 2 * FREE < at < b + 2 * FREE for at in past for a, b in spans):
+                        yield replace(one_way, reach=reach)
 
     def _words(self, one: Size | Slant | Round) -> str:
         """All that is written of a dimension."""
@@ -509,6 +529,15 @@ class _Layout:
                     off = _SHORT * _SLOPE + 1.0 if side > 0 else _WORDS + text_width(note.text, SMALL_TEXT) + 2.0
                     lines, text = rough_sign(elbow + side * off, note.text)
                     lines.append(Line(elbow, elbow + side * (off + 1.0)))
+                elif note.datum:
+                    # a runout is measured straight out of the surface
+                    for side in (1.0, -1.0) if turn == 0.0 else ():
+                        text, framed = _runout(elbow + side * _SHELF, side, note.text, note.datum)
+                        led: dict[Role, Sequence[Line]] = {
+                            "leader": [Line(tip, elbow), Line(elbow, elbow + side * _SHELF)]
+                        }
+                        yield _Place(led, _arrow(tip, way), text, cost, framed=framed)
+                    continue
                 else:
                     lines, text = _shelved(elbow, note.text, way, TITLE_TEXT if note.is_letter else TEXT_HEIGHT)
                 yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost)
@@ -571,6 +600,21 @@ class _Level(Record, dict=True):
         first, second = (self.on(place, self.at) for place in self.span)
         return [*_arrow(first, way), *_arrow(second, -way)]
 
+    def flagged(self, place: _Place, datum: str) -> Iterator[tuple[_Place, tuple[_Span]]]:
+        """Its place with the mark of a datum at either end, and what that takes along the line; GOST 2.308."""
+        for index, (end, way) in enumerate(zip(self.span, (-1.0, 1.0), strict=True)):
+            # the triangle stands in place of an arrow that is outside
+            within = _is_inside(*self.span)
+            arrows = place.arrows if within else place.arrows[_FAN * (1 - index) :][:_FAN]
+            far = _TRIANGLE + _STUB, _TRIANGLE + _STUB + _FRAME
+            tip, foot, last = (self.on(end + way * at, self.at) for at in (_TRIANGLE, *far))
+            base = [self.at + _TRIANGLE / math.sqrt(3.0) * (2 * k / (_FILL - 1) - 1) for k in range(_FILL)]
+            half, middle = complex(_FRAME, _FRAME) / 2, (foot + last) / 2
+            box, taken = Box.of([middle - half, middle + half]), sorted([end, end + way * far[1]])
+            stub = [*(Line(tip, self.on(end, at)) for at in base), Line(tip, foot)]
+            framed = _Framed(box, _sides(box), (_within(datum, box),), stub)
+            yield replace(place, arrows=arrows, framed=framed), ((taken[0], taken[1]),)
+
     @property
     def told(self) -> _Told:
         """What programs know of it: those that take every size as aligned read the same with points at one level."""
@@ -579,11 +623,25 @@ class _Level(Record, dict=True):
         return (first, second), self.on(self.span[1], self.at), 90.0 if self.is_upright else 0.0
 
 
+class _Framed(Record):
+    """A frame with its lines, and words beside those of its place; ``stub``: what leads to it."""
+
+    frame: Box
+    lines: Sequence[Line]
+    texts: Sequence[Text]
+    stub: Sequence[Line] = ()
+
+    @property
+    def room(self) -> Box:
+        """What other lines and words keep off."""
+        return self.frame.grown(_GAP - FREE)
+
+
 class _Place(Record):
     """A place for words: lines by what they are, arrows, words, what it costs in rows.
 
     ``told``: what programs know of a dimension. ``known``: what its lines cost at least, in rows. ``row``: where it
-    will take ``reach`` along its line. ``arc``: its line as it is drawn.
+    will take ``reach`` along its line. ``arc``: its line as it is drawn. ``framed``: a frame beside it.
     """
 
     lines: Mapping[Role, Sequence[Line]]
@@ -595,6 +653,7 @@ class _Place(Record):
     row: list[_Span] | None = None
     reach: _Span = (0.0, 0.0)
     arc: Arc | None = None
+    framed: _Framed | None = None
 
     @property
     def least(self) -> float:
@@ -652,6 +711,28 @@ def _shelved(elbow: complex, words: str, way: complex, height: float = TEXT_HEIG
     left = elbow if way.real >= -1e-9 else elbow - wide
     # what letters reach below their line grows with them
     return [Line(left, left + wide)], text_of(words, left + complex(0.5, _GAP * height / TEXT_HEIGHT), height)
+
+
+def _sides(box: Box) -> list[Line]:
+    """The four lines of a frame."""
+    return [Line(a, b) for a, b in pairwise([*box.corners, box.corners[0]])]
+
+
+def _within(words: str, frame: Box) -> Text:
+    """Words in the middle of a frame."""
+    return text_of(words, frame.middle - complex(text_width(words), TEXT_HEIGHT) / 2)
+
+
+def _runout(foot: complex, side: float, size: str, datum: str) -> tuple[Text, _Framed]:
+    """The size of a runout and the frame about it, with its sign and datum, on a side of a place; GOST 2.308."""
+    widths = _FRAME, text_width(size) + 2 * _WITHIN, _FRAME
+    left, low = foot.real if side > 0 else foot.real - sum(widths), foot.imag - _FRAME / 2
+    sign, number, letter = (Box(a, low, b, low + _FRAME) for a, b in pairwise(accumulate(widths, initial=left)))
+    frame, way = Box.about([sign, letter]), cmath.rect(1.0, math.radians(45.0))
+    start, tip = (sign.middle + part * _FRAME * way for part in (-0.35, 0.35))
+    parted = [Line(complex(x, low), complex(x, frame.high)) for x in (number.left, letter.left)]
+    lines = [*_sides(frame), *parted, Line(start, tip), *_arrow(tip, -way)]
+    return _within(size, number), _Framed(frame, lines, (_within(datum, letter),))
 
 
 def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[list[Line], Text]:

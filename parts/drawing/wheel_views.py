@@ -36,6 +36,7 @@ from parts.drawing.working import (
     Round,
     Side,
     Size,
+    Spot,
     Stroke,
     Subject,
     View,
@@ -52,6 +53,8 @@ PITCH = "pitch"
 _NONE = 1e-9
 # mm within which a wall is an edge's own; the least turn of a corner that is seen, rad; digits of heights
 _NEAR, _SMOOTH, _DIGITS = 1e-6, 1e-6, 6
+# where along an edge a frame may point to it, parts of its length
+_PARTS = (0.3, 0.5, 0.7, 0.15, 0.85)
 # directions in which both sides of an outline are compared, rad; parts of what is equal
 _SIDES, _EVEN = (-1.3, -0.7, -0.2, 0.3, 0.8, 1.4), 1e-6
 
@@ -369,7 +372,34 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in (*edges, *spline.roots)]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
-    return View(tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
+    return View(
+        tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes,
+        rim=_rim_spots(wheel) if any(one.name == "tip_diameter" for one in sizes) else (), face=_face_spots(wheel),
+    )  # fmt: skip
+
+
+def _rim_spots(wheel: Wheel) -> tuple[Spot, ...]:
+    """Places on the outer line above and below, between its chamfers and grooves."""
+    rows, tip = wheel.rows(), wheel.tip[0]
+    if (crown := wheel.crown) is not None:
+        edge = Line(complex(wheel.shape.face_width, tip), 1j * tip)
+        rows = [(c.end.real, c.start.real) for c in crown.top(edge, crown.throat) if isinstance(c, Line)]
+    low, high = max(rows, key=lambda row: row[1] - row[0], default=(0.0, 0.0))
+    return spots(complex(low, tip), complex(high, tip), 1j) if high > low else ()
+
+
+def _face_spots(wheel: Wheel) -> tuple[Spot, ...]:
+    """Places on the upper end face of the rim above and below the axis, between its inner edge and teeth or outside."""
+    shape, bores = wheel.shape, bore_radii(wheel.holes.bore)
+    inner = max(*bores, shape.hub.diameter / 2 if shape.hub else 0.0, shape.web.rim_diameter / 2 if shape.web else 0.0)
+    outer = min(wheel.tip) if wheel.root is None else wheel.root
+    return spots(complex(shape.face_width, outer), complex(shape.face_width, inner), 1 + 0j)
+
+
+def spots(start: complex, end: complex, out: complex) -> tuple[Spot, ...]:
+    """Places on a line of a section and its image below the axis, the best first, with the ways out of the material."""
+    along = (start + part * (end - start) for part in _PARTS)
+    return tuple(pair for at in along for pair in ((at, out), (at.conjugate(), out.conjugate())))
 
 
 def cut_holes(

@@ -29,13 +29,16 @@ TURNED = "\u21bb"
 
 
 Stroke = tuple[str, Curve]
+# a place and the way out of the material there
+Spot = tuple[complex, complex]
 
 
 class Size(Record):
     """A linear size: between two points along x (its line above or below the view) or along y (left or right).
 
     ``before`` and ``after`` the number stand a sign and a fit: Ø, h11, ×45°; then at how many ``places`` it is.
-    ``name``: of what it is, for readers of the file's dimensions in programs.
+    ``name``: of what it is, for readers of the file's dimensions in programs; ``datum``: its letter, where its axis
+    or plane is one.
     """
 
     name: str
@@ -45,6 +48,7 @@ class Size(Record):
     before: str = ""
     after: str = ""
     places: str = ""
+    datum: str = ""
 
     @property
     def value(self) -> float:
@@ -93,7 +97,7 @@ class Round(Record):
     """The diameter, or the radius where ``is_radius``, of a circle or arc, on a leader; ``angles``: where it may stand.
 
     Angles in degrees, the best first. ``inward``: its leader runs towards the centre. ``also``: centres and angles of
-    other arcs that are of this size.
+    other arcs that are of this size. ``datum``: its letter, where its axis is one.
     """
 
     name: str
@@ -106,6 +110,7 @@ class Round(Record):
     angles: tuple[float, ...] = (45.0, 135.0, -45.0, -135.0)
     also: tuple[tuple[complex, tuple[float, ...]], ...] = ()
     places: str = ""
+    datum: str = ""
 
     @property
     def value(self) -> float:
@@ -128,7 +133,7 @@ class Note(Record):
     that serve as well, with theirs.
     ``looks``: the text is the letter of a view, and an arrow points that way: -1 from the right, -1j from above.
     ``is_letter``: it names a view, and is as large as titles are. ``about``: mm, the words stand without a leader
-    beside a circle of this radius about the point.
+    beside a circle of this radius about the point. ``datum``: the text is the runout about that, in a frame.
     """
 
     at: complex
@@ -138,8 +143,9 @@ class Note(Record):
     looks: complex = 0
     is_letter: bool = False
     free: complex = 0j
-    also: tuple[tuple[complex, complex], ...] = ()
+    also: tuple[Spot, ...] = ()
     about: float | None = None
+    datum: str = ""
 
 
 class Cut(Record):
@@ -157,7 +163,8 @@ class View(Record, dict=True):
     ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it, ``TURNED`` in it for that
     sign; ``least``: mm that it is high on paper at least, a view with a scale of its own. ``from_right``: it is seen
     from the right of the main view, on whose left it stands (GOST 2.305). ``in_row``: it stands in projection, although
-    it has letters.
+    it has letters. ``rim`` and ``face``: places on what is round about the axis and on an end face, with the ways out
+    of the material there.
     """
 
     strokes: tuple[Stroke, ...]
@@ -173,6 +180,8 @@ class View(Record, dict=True):
     in_row: bool = False
     slants: tuple[Slant, ...] = ()
     angles: tuple[Angle, ...] = ()
+    rim: tuple[Spot, ...] = ()
+    face: tuple[Spot, ...] = ()
 
     @cached_property
     def chords(self) -> tuple[Complex, ...]:

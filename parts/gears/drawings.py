@@ -32,6 +32,7 @@ from parts.drawing.wheel_views import (
     ring_face,
     ring_section,
     spline_cut,
+    spots,
     wheel_views,
     with_bore,
 )
@@ -164,7 +165,10 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
     rough = Note(complex(width, -pitch), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
     sizes = section.sizes[0], told, *section.sizes[1:]
-    section = replace(section, axes=(*section.axes, *axes), sizes=sizes, notes=(rough,))
+    section = replace(
+        section, axes=(*section.axes, *axes), sizes=sizes, notes=(rough,),
+        rim=spots(1j * tip, complex(width, tip), -1j), face=spots(complex(width, outer), complex(width, root), 1 + 0j),
+    )  # fmt: skip
     region = subject.part.section(0.0).region
     toothed = next(p for p in region.holes if p.count == ring.number_of_teeth)
     count = min(wishes.teeth, ring.number_of_teeth)

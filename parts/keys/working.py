@@ -39,6 +39,11 @@ def _rough(meaning: str) -> Meta:
     return Meta(ge=0.012, le=100, description=f"roughness Ra of {meaning}", extra={"unit": "um"})
 
 
+def _runout(meaning: str) -> Meta:
+    told = f"runout of {meaning}, in the frame of GOST 2.308, its datum marked"
+    return Meta(gt=0, le=10, description=told, extra={"unit": "mm"}, examples=[0.05])
+
+
 _Requirement = Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]
 _REQUIREMENTS = Meta(max_length=12, description="technical requirements, a line each, before those of the drawing")
 
@@ -57,9 +62,15 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     flank_roughness: Annotated[float, _rough("working surfaces: flanks of teeth and cams")] = 1.6
     bore_roughness: Annotated[float, _rough("bores")] = 1.6
     shaft_roughness: Annotated[float, _rough("steps of a shaft, where it is not that of all surfaces")] | None = None
+    tip_runout: Annotated[float, _runout("the tip circle about the bore, of inner teeth about the outside")] | None = (
+        None
+    )
+    face_runout: Annotated[float, _runout("the upper face (of a bevel gear the back) about the same")] | None = None
     teeth: Annotated[int, Meta(ge=0, le=10_000, description="teeth drawn exactly; the others are circles")] = 0
     requirements: Annotated[list[_Requirement], _REQUIREMENTS] = []
 
 
 # the keys of tolerance zones
 ZONES = ("tip", "inner", "bore", "keyway", "shaft", "shaft_keyway", "width")
+# those of runouts
+RUNOUTS = ("tip_runout", "face_runout")

@@ -23,6 +23,7 @@ from parts.drawing.wheel_views import (
     face_view,
     keyway_edges,
     spline_cut,
+    spots,
     with_bore,
 )
 from parts.drawing.working import (
@@ -94,6 +95,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     sizes = [one for one in told if one.side not in _ACROSS or round(one.value, 7) not in by_cones]
     # on the right stands the angle of the tips
     sizes = [replace(one, side="left") if abs(one.value - 2 * outer.imag) < _NONE else one for one in sizes]
+    # what the runouts are about
+    sizes = [replace(one, name="bore_diameter") if one.name.startswith("inner_diameter") else one for one in sizes]
     sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
     sizes += circle_sizes(holes, wheel.turn, low)
     middle = sum(_along(gear, gear.pitch_angle)) / 2
@@ -108,6 +111,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     view = View(
         tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), tuple(sizes), notes=tuple(notes),
         slants=(_face_width(gear),), angles=cones,
+        rim=spots(outer, inner, 1j * (inner - outer)), face=spots(1j * _back(gear), 1j * up, -1 + 0j),
     )  # fmt: skip
     more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
     others = (face_view(wheel, subject),) if holes.round_holes else ()
@@ -118,6 +122,11 @@ def part_drawing(subject: Subject) -> PartDrawing:
 def _place(gear: BevelGear, place: complex) -> complex:
     """Radius and distance from the apex as they are drawn: height and radius."""
     return complex(gear.mounting_distance - place.imag, place.real)
+
+
+def _back(gear: BevelGear) -> float:
+    """How far out the back face reaches, mm."""
+    return gear.blank.hub_diameter / 2 if gear.blank.hub_length else _place(gear, gear.rim).imag
 
 
 def _along(gear: BevelGear, angle: float) -> tuple[complex, complex]:
