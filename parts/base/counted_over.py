@@ -7,8 +7,8 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 from geometry.base.errors import Nearest
+from geometry.gears.teeth.module_rows import INCH
 
-INCH = 25.4
 Rule = Callable[[float, Mapping[str, Any]], float]
 
 

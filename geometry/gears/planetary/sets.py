@@ -18,17 +18,14 @@ from numpy.typing import NDArray
 
 from geometry.base.both import both
 from geometry.base.record import Record
+from geometry.gears.teeth.module_rows import MODULES
 
 Link = Literal["first", "second", "carrier"]
 LINKS: tuple[Link, ...] = ("first", "second", "carrier")
 # the coefficients of w1, w3, wH in Willis's w1 - wH = p (w3 - wH), each a + b p
 _WILLIS: dict[Link, tuple[int, int]] = {"first": (1, 0), "second": (0, -1), "carrier": (-1, 1)}
 _SINES = {2: Fraction(1), 6: Fraction(1, 2)}
-# GOST 9563-60, both rows, mm
-_MODULES = tuple(map(Fraction, (
-    "1", "1.125", "1.25", "1.375", "1.5", "1.75", "2", "2.25", "2.5", "2.75", "3", "3.5", "4", "4.5", "5", "5.5", "6",
-    "7", "8", "9", "10",
-)))  # fmt: skip
+_MODULES = tuple(m for m in map(Fraction, MODULES) if 1 <= m <= 10)
 # heights of tips and of a ring's root over the reference circle, modules, where sizes and neighbours are told by teeth
 TIP, ROOT = 1, Fraction(5, 4)
 

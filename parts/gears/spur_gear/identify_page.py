@@ -1,0 +1,133 @@
+"""``higherpair calc identify``: an unknown gear by two spans, and by the diameters of its tips and roots."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.gears.teeth.identified import ANGLES, FITS, Match, matches, shift_of_span
+from geometry.gears.teeth.module_rows import INCH
+from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
+from parts.base.texts import N_, message
+from parts.keys.base import degrees, mm
+from parts.pages.inputs import calculation
+from parts.pages.page import Sheet, Table, table_of
+
+TOPIC = "identify"
+# so many angles with their modules are shown
+_ROWS = 6
+_Teeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z, counted", examples=[24])]
+_Spanned = Annotated[int, Meta(ge=1, le=10_000, description="teeth in the first span k", examples=[4])]
+_SPAN = mm("span measured over k teeth", above=0, most=100_000, example=32.83)
+_NEXT = mm("span measured over one tooth more", above=0, most=100_000, example=41.68)
+
+
+class IdentifyKeys(Struct, kw_only=True, forbid_unknown_fields=True):
+    """Keys of the topic: what was counted and measured, and what is known besides."""
+
+    number_of_teeth: _Teeth
+    teeth_spanned: _Spanned
+    span: Annotated[float, _SPAN]
+    next_span: Annotated[float, _NEXT]
+    tip_diameter: Annotated[float, mm("tip diameter measured", above=0, most=100_000)] | None = None
+    root_diameter: Annotated[float, mm("root diameter measured", above=0, most=100_000)] | None = None
+    helix_angle_deg: Annotated[float, degrees("helix angle measured", least=-60, most=60)] = 0.0
+    pressure_angle_deg: Annotated[float, degrees("pressure angle, where it is known", least=5, most=45)] | None = None
+    module: Annotated[float, mm("module, where it is known", least=0.01, most=1000)] | None = None
+
+
+@calculation(TOPIC, IdentifyKeys)
+def sheet(keys: IdentifyKeys) -> Sheet:
+    """Module and pressure angle, shift, heights of the tooth, and the keys of a scene."""
+    helix, pitch = math.radians(keys.helix_angle_deg), keys.next_span - keys.span
+    if pitch <= 0:
+        raise ParameterError("next_span", keys.next_span, "not_above_span", span=keys.span)
+    if keys.teeth_spanned >= keys.number_of_teeth:
+        most = Nearest(keys.number_of_teeth - 1, "at_most")
+        raise ParameterError(
+            "teeth_spanned", keys.teeth_spanned, "span_beyond_teeth", most, teeth=keys.number_of_teeth
+        )  # fmt: skip
+    angles = ANGLES if keys.pressure_angle_deg is None else (keys.pressure_angle_deg,)
+    found = matches(pitch, [math.radians(a) for a in angles], keys.module)
+    match = found[0]
+    page = Sheet(TOPIC, N_("Gear by measurement"))
+    page.section("Given")
+    page.given(number_of_teeth=keys.number_of_teeth, teeth_spanned=keys.teeth_spanned, span=keys.span)
+    page.given(next_span=keys.next_span, tip_diameter=keys.tip_diameter, root_diameter=keys.root_diameter)
+    if helix:
+        page.add("helix_angle_deg", keys.helix_angle_deg, given=True)
+    page.section(N_("Module and pressure angle"))
+    page.add("base_pitch", pitch, "{W_1} - {W}", "ISO 21771", symbol="p_bn" if helix else "")
+    page.add("pressure_angle_deg", math.degrees(match.pressure_angle), symbol="α_n" if helix else "", key="alpha_n")
+    page.add("module_by_pitch", pitch / (math.pi * math.cos(match.pressure_angle)), "{p_b} / (pi * cos({alpha_n}))")
+    page.add("module", match.module, "", match.row, symbol="m_n" if helix else "")
+    page.add("diametral_pitch", INCH / match.module, f"{INCH} / {{m}}")
+    page.add("pitch_difference_percent", 100 * match.deviation, "100 * ({m_b} / {m} - 1)")
+    shift = _shift(page, keys, match, helix)
+    _heights(page, keys, match, helix, shift)
+    page.tables.append(_table(found))
+    _remarks(page, keys, found, shift)
+    return page
+
+
+def _shift(page: Sheet, keys: IdentifyKeys, match: Match, helix: float) -> float:
+    """The profile shift, and where the faces of the calliper touch."""
+    transverse = transverse_angle(match.pressure_angle, helix)
+    page.section("Profile shift")
+    if helix:
+        angle = math.degrees(transverse)
+        page.add("transverse_pressure_angle_deg", angle, "arctan(tan({alpha_n}) / cos({beta}))", "ISO 21771")
+    else:
+        page.name("alpha", "alpha_n")
+    shift = shift_of_span(keys.span, keys.teeth_spanned, keys.number_of_teeth, match, helix)
+    arc = "pi * ({k} - 0.5) + {z} * inv({alpha})"
+    formula = f"({{W}} / ({{m}} * cos({{alpha_n}})) - ({arc})) / (2 * tan({{alpha_n}}))"
+    page.add("profile_shift_coefficient", shift, formula, "ISO 21771", symbol="x_n" if helix else "")
+    reference = match.module * keys.number_of_teeth / math.cos(helix)
+    page.add("reference_diameter", reference, "{m} * {z} / cos({beta})" if helix else "{m} * {z}", "ISO 21771")
+    base = reference * math.cos(transverse)
+    page.add("base_diameter", base, "{d} * cos({alpha})", "ISO 21771")
+    across = math.cos(base_helix_angle(transverse, helix))
+    touched = math.hypot(base, keys.next_span * across)
+    page.add("span_contact_diameter", touched, "" if helix else "sqrt({d_b}**2 + {W_1}**2)", "ISO 21771")
+    if keys.tip_diameter is not None and touched > keys.tip_diameter:
+        page.note("the span over k + 1 teeth does not touch the involutes: measure over fewer teeth")
+    return shift
+
+
+def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift: float) -> None:
+    """The heights of the tooth in modules, of the diameters that were measured."""
+    if keys.tip_diameter is None and keys.root_diameter is None:
+        return
+    page.section(N_("Heights of the tooth"))
+    reference = match.module * keys.number_of_teeth / math.cos(helix)
+    if keys.tip_diameter is not None:
+        value = (keys.tip_diameter - reference) / (2 * match.module) - shift
+        page.add("addendum_coefficient", value, "({d_a} - {d}) / (2 * {m}) - {x}")
+    if keys.root_diameter is not None:
+        value = (reference - keys.root_diameter) / (2 * match.module) + shift
+        page.add("dedendum_coefficient", value, "({d} - {d_f}) / (2 * {m}) + {x}")
+
+
+def _table(found: list[Match]) -> Table:
+    rows = [(math.degrees(m.pressure_angle), m.module, INCH / m.module, 100 * m.deviation) for m in found[:_ROWS]]
+    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("δ", "%"))
+    return table_of("modules", N_("Pressure angles and modules, what fits first"), heads, rows)
+
+
+def _remarks(page: Sheet, keys: IdentifyKeys, found: list[Match], shift: float) -> None:
+    """What is not certain, and how a scene has the gear."""
+    match, *others = found
+    if abs(match.deviation) > FITS:
+        page.note("no module of a row is within 1 % of what was measured: module tells one of your own")
+    elif any(abs(other.deviation) <= FITS for other in others):
+        page.note("more than one fits within 1 %: pressure_angle_deg or module tells which")
+    page.note("teeth thinned for backlash give less shift than they were cut with")
+    words = {"module": match.module, "number_of_teeth": keys.number_of_teeth,
+             "pressure_angle_deg": math.degrees(match.pressure_angle), "helix_angle_deg": keys.helix_angle_deg,
+             "profile_shift_coefficient": round(shift, 4), "tip_diameter": keys.tip_diameter}  # fmt: skip
+    told = (f"{key} = {value:.12g}" for key, value in words.items() if value)
+    page.notes.append(message("in a scene: {keys}", keys=", ".join(told)))

@@ -1,0 +1,102 @@
+"""An unknown gear by two spans: against published spans, and against gears whose spans are written down anew here."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.exporters.making import run
+
+
+def identified(capsys: pytest.CaptureFixture[str], **keys: float) -> dict[str, Any]:
+    capsys.readouterr()
+    assert run("calc", "identify", *(f"{k}={v}" for k, v in keys.items()), "--format", "json") == 0
+    found: dict[str, Any] = json.loads(capsys.readouterr().out)
+    return found
+
+
+# KHK, Gear Technical Reference, calculations of spans: m 3, 20 degrees, z 24, x 0.4; spur over 4, at 25 degrees over 5
+@pytest.mark.parametrize(
+    ("span", "spanned", "helix"), [(32.8266, 4, 0.0), (42.0085, 5, 25.0)], ids=["spur", "helical"]
+)  # fmt: skip
+def test_the_gears_of_published_spans_are_found(
+    capsys: pytest.CaptureFixture[str], span: float, spanned: int, helix: float
+) -> None:
+    tip = 3 * 24 / math.cos(math.radians(helix)) + 2 * 3 * (1 + 0.4)
+    found = identified(
+        capsys, number_of_teeth=24, teeth_spanned=spanned, span=span, next_span=span + 8.856,
+        helix_angle_deg=helix, tip_diameter=tip, root_diameter=tip - 2 * 3 * 2.25,
+    )["values"]  # fmt: skip
+    assert (found["module"], found["pressure_angle_deg"]) == pytest.approx((3.0, 20.0), rel=1e-12)
+    assert found["profile_shift_coefficient"] == pytest.approx(0.4, abs=1e-4)
+    assert (found["addendum_coefficient"], found["dedendum_coefficient"]) == pytest.approx((1.0, 1.25), abs=1e-4)
+
+
+def spans_of(module: float, angle_deg: float, teeth: int, shift: float, spanned: int) -> list[float]:
+    """Arcs of the base circle, which a calliper's faces unroll: k - 1 pitches and a tooth."""
+    alpha = math.radians(angle_deg)
+    base, tooth = module * teeth * math.cos(alpha) / 2, math.pi / 2 + 2 * shift * math.tan(alpha)
+    half = tooth / teeth + math.tan(alpha) - alpha
+    return [2 * base * (half + (k - 1) * math.pi / teeth) for k in (spanned, spanned + 1)]
+
+
+@pytest.mark.parametrize(
+    ("module", "angle"),
+    [(2.0, 20.0), (25.4 / 12, 14.5), (25.4 / 24, 20.0), (25.4 / 32, 14.5), (5.0, 25.0), (0.8, 20.0)],
+)
+def test_modules_and_diametral_pitches_are_found_off_readings_of_a_hundredth(
+    capsys: pytest.CaptureFixture[str], module: float, angle: float
+) -> None:
+    first, second = spans_of(module, angle, 30, 0.25, 4)
+    for slip in (-0.01, 0.0, 0.01) if module > 1 else (0.0,):
+        keys = {"number_of_teeth": 30, "teeth_spanned": 4, "span": first, "next_span": second + slip}
+        found = identified(capsys, **keys)["values"]
+        assert (found["module"], found["pressure_angle_deg"]) == pytest.approx((module, angle), rel=1e-12)
+        assert found["profile_shift_coefficient"] == pytest.approx(0.25, abs=1e-9)
+
+
+def test_what_is_known_decides_and_what_fits_nothing_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = spans_of(2.15, 20.0, 30, 0.0, 4)
+    keys = {"number_of_teeth": 30, "teeth_spanned": 4, "span": first, "next_span": second}
+    assert any("no module of a row" in note for note in identified(capsys, pressure_angle_deg=20, **keys)["notes"])
+    found = identified(capsys, module=2.15, **keys)["values"]
+    assert found["pressure_angle_deg"] == pytest.approx(20.0, rel=1e-12)
+    assert found["profile_shift_coefficient"] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"next_span": 32.0}, "identify.next_span = 32.0: must be more than the span over one tooth less, 32.83 mm"),
+        ({"teeth_spanned": 24}, "at most 23 works"),
+        ({"tip_diameter": 79.0}, "measure over fewer teeth"),
+    ],
+    ids=["next", "many", "beyond"],
+)
+def test_readings_that_cannot_be_are_told(
+    capsys: pytest.CaptureFixture[str], changed: dict[str, float], told: str
+) -> None:
+    keys = {"number_of_teeth": 24, "teeth_spanned": 4, "span": 32.83, "next_span": 41.68} | changed
+    code = run("calc", "identify", *(f"{k}={v}" for k, v in keys.items()))
+    shown = capsys.readouterr()
+    assert told in shown.out + shown.err
+    assert code == (0 if "tip_diameter" in changed else 2)
+
+
+@given(
+    module=st.sampled_from([1.0, 1.5, 2.0, 3.0, 4.0]), teeth=st.integers(15, 80), shift=st.floats(-0.3, 0.6),
+    off=st.floats(-0.004, 0.004),
+)  # fmt: skip
+def test_usual_gears_are_found_though_readings_are_off(module: float, teeth: int, shift: float, off: float) -> None:
+    from geometry.gears.teeth.identified import ANGLES, matches, shift_of_span
+
+    spanned = max(2, round(teeth / 9))
+    first, second = spans_of(module, 20.0, teeth, shift, spanned)
+    found = matches((second - first) * (1 + off), [math.radians(a) for a in ANGLES])[0]
+    assert (found.module, math.degrees(found.pressure_angle)) == pytest.approx((module, 20.0), rel=1e-12)
+    assert shift_of_span(first, spanned, teeth, found, 0.0) == pytest.approx(shift, abs=1e-9)
