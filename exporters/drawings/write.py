@@ -97,7 +97,7 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
     """A DIMENSION that programs can edit, measured in mm of the model; the block for its lines and words."""
     from exporters.formats.drawing_dxf import place_of
 
-    name = f"{_DIMSTYLE}_{one.scale:g}".replace(".", "_")
+    name = f"{_DIMSTYLE}_{one.scale:.9g}".replace(".", "_")
     if name not in drawing.dimstyles:
         is_first = not any(style.dxf.name.startswith(_DIMSTYLE) for style in drawing.dimstyles)
         told = {"dimtxt": TEXT_HEIGHT, "dimasz": ARROW, "dimexe": 1.5, "dimexo": 0.0, "dimgap": 0.9, "dimdli": 8.0,

@@ -376,7 +376,8 @@ class _Layout:
 
     def _template(self, one: Size | Slant | Round) -> str:
         """The words of a dimension as programs keep them; the font that they draw it in has no minus."""
-        number = number_text(one.value, self.language) if self.own else "<>"
+        is_broken = isinstance(one, Size) and one.whole is not None
+        number = number_text(one.value, self.language) if self.own or is_broken else "<>"
         return one.before.replace("Ø", "%%c") + number + one.after.replace(MINUS, "-") + one.places
 
     def _dimension(
@@ -384,6 +385,8 @@ class _Layout:
     ) -> None:
         """Note what programs need to know of a dimension."""
         (points, line, angle), scale = told, self.paper.scale
+        if isinstance(one, Size) and one.whole is not None:
+            scale *= one.drawn / one.whole
         middle, is_beside, vertex = text.box.middle, False, None
         if isinstance(one, Angle):
             name, template, vertex = "angle", one.words.replace("°", "%%d"), self.paper.point(one.at)

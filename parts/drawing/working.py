@@ -38,7 +38,7 @@ class Size(Record):
 
     ``before`` and ``after`` the number stand a sign and a fit: Ø, h11, ×45°; then at how many ``places`` it is.
     ``name``: of what it is, for readers of the file's dimensions in programs; ``datum``: its letter, where its axis
-    or plane is one.
+    or plane is one; ``whole``: what it is, over a break of the view, mm.
     """
 
     name: str
@@ -49,12 +49,18 @@ class Size(Record):
     after: str = ""
     places: str = ""
     datum: str = ""
+    whole: float | None = None
+
+    @property
+    def drawn(self) -> float:
+        """How far apart its ends are, mm."""
+        way = self.end - self.start
+        return abs(way.imag if self.side in ("left", "right") else way.real)
 
     @property
     def value(self) -> float:
         """The number, mm."""
-        way = self.end - self.start
-        return abs(way.imag if self.side in ("left", "right") else way.real)
+        return self.drawn if self.whole is None else self.whole
 
 
 class Slant(Record):

@@ -15,6 +15,7 @@ from geometry.curves.line_arc import Line
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.solids.bores import RoundBore
+from parts.drawing.breaks import Break, broken
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.revolved import below, block, closed, outlined, seen_edges
@@ -63,6 +64,9 @@ from parts.keys.wheel import shape_of, wheel_shape
 
 # mm, what is no length; how long marks of the teeth's direction are, and how far apart: parts of what has room
 _NONE, _MARK, _APART = 1e-9, 0.7, 0.3
+# of a rack that is broken: what is kept at either end at least, and the gap, parts of that; what is kept at most, parts
+# of the half
+_LEAST_KEPT, _GAP, _KEPT = 4.0, 0.1, 0.6
 # the section of a long rack is so high on paper at least, mm
 _LEAST_SECTION = 20.0
 
@@ -217,7 +221,9 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
     notes = [rough]
     # what is behind the near face lies aslant of it
     line = _tooth_line(keys)
-    if aslant := max((point.real for point in line), key=abs):
+    aslant = max((point.real for point in line), key=abs)
+    at = _rack_break(rack, shown + 2 * abs(aslant) + pitch, _LEAST_KEPT * (tip - foot))
+    if aslant:
         notes.append(Note(1j * tip, subject.letter(1), looks=-1j))
         for end in (-half, half):
             corners = [complex(end, foot), complex(end + aslant, foot), complex(end + aslant, root), complex(end, root)]
@@ -239,10 +245,24 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         title=f"{cut.letter}-{cut.letter}",
         least=_LEAST_SECTION,
     )
-    if not aslant:
-        return front, section
     tips = sorted({round(p.real, 9) for c in kept for p in (start_point(c), end_point(c)) if abs(p.imag - tip) < 1e-6})
-    return front, section, _rack_top(half, tips, line, subject.letter(1))
+    views = (front, *([_rack_top(half, tips, line, subject.letter(1), at)] if aslant else []))
+    front, *others = views if at is None else (broken(view, at) for view in views)
+    return front, section, *others
+
+
+def _rack_break(rack: Rack, shown: float, least: float) -> Break | None:
+    """The break of a rack so long that its teeth would be too small: beside what is ``shown`` at either end, mm, and
+    two holes there.
+    """
+    kept, half, holes = max(shown, least), rack.length / 2, rack.holes
+    if holes is not None:
+        first = half - (holes.count - 1) / 2 * holes.spacing
+        kept = max(kept, first + (holes.spacing if holes.count > 1 else 0.0) + holes.diameter)
+        # one alone, or two, may stand in the middle
+        if holes.count < 4 and half - kept < half - first - (holes.count - 1) * holes.spacing + holes.diameter:
+            return None
+    return Break(half - kept, _GAP * least) if kept < _KEPT * half else None
 
 
 def _tooth_line(keys: RackSpec) -> list[complex]:
@@ -252,16 +272,20 @@ def _tooth_line(keys: RackSpec) -> list[complex]:
     return [complex((shift - stations[0][1]).real, width - z) for z, shift in stations] or [0j]
 
 
-def _rack_top(half: float, tips: Sequence[float], line: Sequence[complex], title: str) -> View:
+def _rack_top(half: float, tips: Sequence[float], line: Sequence[complex], title: str, at: Break | None) -> View:
     """A helical rack from above: its ends, the edges of its end teeth, marks of their direction after GOST 2.402.
 
-    ``tips``: places of edges on the near face; ``line``: a tooth line.
+    ``tips``: places of edges on the near face; ``line``: a tooth line; ``at``: where it will be broken.
     """
     near = (-half, *tips, half)
     strokes: list[Stroke] = [(VISIBLE, Line(a + x, b + x)) for x in near for a, b in pairwise(line)]
     strokes += [(VISIBLE, Line(p - half, p + half)) for p in (line[0], line[-1])]
     middle, free = (line[0] + line[-1]) / 2, min(map(abs, near))
-    marks = [middle + _MARK * (point - middle) + _APART * k * free for k in (-1, 0, 1) for point in line]
+    if at is not None:
+        middle, free = middle - (free + at.at) / 2, (free - at.at) / 2
+    marks = [
+        middle + _MARK * (point - (line[0] + line[-1]) / 2) + _APART * k * free for k in (-1, 0, 1) for point in line
+    ]
     strokes += [(THIN, Line(a, b)) for k in range(3) for a, b in pairwise(marks[k * len(line) : (k + 1) * len(line)])]
     return View(tuple(strokes), title=title)
 

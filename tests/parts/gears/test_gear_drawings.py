@@ -386,10 +386,12 @@ def test_the_wishes_of_an_export_stand_beside_the_sizes(keys: dict[str, Any]) ->
     assert rough == ["Ra 0.8"] + ["Ra 3.2"] * (kind in ("spur_gear", "worm"))
 
 
-@pytest.mark.parametrize(("teeth", "title"), [(100, r"A-A \(1:[24]\)"), (4, "A-A")])
-def test_the_section_of_a_long_rack_is_large_enough_to_be_read(teeth: int, title: str) -> None:
+@pytest.mark.parametrize("teeth", [100, 4])
+def test_the_section_of_a_long_rack_is_large_enough_to_be_read(teeth: int) -> None:
     """At the 1:20 of its view one of 80 x 78 mm was 4 x 4 mm on paper."""
     rack = {"kind": "rack", "module": 8.0, "number_of_teeth": teeth, "face_width": 80.0, "body_height": 60.0}
     raw = {"parts": {"p": rack}, "exports": [{"format": "svg", "purpose": "part"}]}
     canvas = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0].canvas
-    assert any(re.fullmatch(title, text.text) for text in canvas.texts)
+    assert any(re.match("A-A", text.text) for text in canvas.texts)
+    (width,) = (one for one in canvas.dimensions if one.name == "face_width")
+    assert 80.0 * width.scale >= 20.0
