@@ -14,3 +14,17 @@ class Finding(Record):
     code: str
     value: float
     limit: float
+
+
+# of a limit above 0: what differences of sizes as they are typed lose to rounding
+_ROUNDING = 1e-9
+
+
+def short_of(code: str, value: float, limit: float) -> tuple[Finding, ...]:
+    """The remark on a value that does not reach its limit; by rounding alone it does."""
+    return (Finding(code, value, limit),) if value < limit * (1 - _ROUNDING) else ()
+
+
+def beyond(code: str, value: float, limit: float) -> tuple[Finding, ...]:
+    """The remark on a value beyond its limit; by rounding alone it is not."""
+    return (Finding(code, value, limit),) if value > limit * (1 + _ROUNDING) else ()

@@ -24,7 +24,7 @@ from geometry.base.errors import (
     PointedTipError,
     limit,
 )
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
@@ -393,10 +393,7 @@ def _has_root(gear: CycloidalGear) -> bool:
 
 def cycloidal_findings(gear: CycloidalGear) -> tuple[Finding, ...]:
     """A thin tip, and a thin rim between the holes and the roots."""
-    found = []
-    if gear.tip_thickness < _THIN_TIP * gear.module:
-        found.append(Finding("thin_tip", gear.tip_thickness, _THIN_TIP * gear.module))
-    rim = gear.root_radius - gear.holes.reach
-    if gear.holes.number and rim < _THIN_RIM * gear.module:
-        found.append(Finding("thin_rim", rim, _THIN_RIM * gear.module))
-    return tuple(found)
+    tips = short_of("thin_tip", gear.tip_thickness, _THIN_TIP * gear.module)
+    if not gear.holes.number:
+        return tips
+    return tips + short_of("thin_rim", gear.root_radius - gear.holes.reach, _THIN_RIM * gear.module)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from geometry.base.errors import OffsetError
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import moved
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import start_point
@@ -74,9 +74,7 @@ def findings_of(gear: NoncircularGear) -> tuple[Finding, ...]:
     if outline.undercut:
         least = (gear.rack.form_dedendum - gear.profile_shift_coefficient) * m / math.sin(gear.rack.pressure_angle) ** 2
         found.append(Finding("undercut_on_centrode", 1 / gear.curvatures[1], least))
-    if outline.tip_thickness < 0.3 * m:
-        found.append(Finding("thin_tip", outline.tip_thickness, 0.3 * m))
-    rim = gear.root_radius - gear.holes.bore_reach
-    if gear.holes.bore_reach > 0 and rim < m:
-        found.append(Finding("thin_rim", rim, m))
+    found += short_of("thin_tip", outline.tip_thickness, 0.3 * m)
+    if gear.holes.bore_reach > 0:
+        found += short_of("thin_rim", gear.root_radius - gear.holes.bore_reach, m)
     return tuple(found)

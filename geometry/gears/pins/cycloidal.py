@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, UndercutError, limit
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace, with_value
 from geometry.curves.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
@@ -241,11 +241,7 @@ def disc_region(disc: CycloidalDisc, offset: float = 0.0) -> OffsetRegion:
 
 def disc_findings(disc: CycloidalDisc) -> tuple[Finding, ...]:
     """A lobe that is nearly sharp, and walls between the holes and the valleys that are thin."""
-    found = []
-    limit = _SHARP * disc.pin_diameter / 2
-    if disc.least_curvature_radius < limit:
-        found.append(Finding("cycloidal_near_cusp", disc.least_curvature_radius, limit))
-    wall, least = disc.root_radius - disc.holes.reach, disc.pin_diameter / 4
-    if disc.holes.number and wall < least:
-        found.append(Finding("cycloidal_thin_wall", wall, least))
-    return tuple(found)
+    sharp = short_of("cycloidal_near_cusp", disc.least_curvature_radius, _SHARP * disc.pin_diameter / 2)
+    if not disc.holes.number:
+        return sharp
+    return sharp + short_of("cycloidal_thin_wall", disc.root_radius - disc.holes.reach, disc.pin_diameter / 4)

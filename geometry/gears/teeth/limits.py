@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
 from geometry.base.errors import GeometryError, LateError, Nearest, ParameterError, UndercutError, limit
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import Record, replace, with_value
 from geometry.base.tolerance import TOLERANCES
@@ -143,9 +143,9 @@ def findings(gear: SpurGear, helix_angle: float = 0.0) -> tuple[Finding, ...]:
     """
     cut, tip, cosine = undercut(gear), thin_tip(gear), math.cos(helix_angle)
     found = [Finding(cut.name, cut.value / cosine, cut.limit / cosine)] if cut.margin < 0 else []
-    found += [Finding(tip.name, tip.value, tip.limit)] if tip.margin < 0 else []
-    if gear.bore_radius > 0 and gear.root_radius - gear.bore_radius < gear.module:
-        found.append(Finding("thin_rim", gear.root_radius - gear.bore_radius, gear.module))
+    found += short_of(tip.name, tip.value, tip.limit)
+    if gear.bore_radius > 0:
+        found += short_of("thin_rim", gear.root_radius - gear.bore_radius, gear.module)
     return tuple(found)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 
 from geometry.base.errors import LateError, Nearest, ParameterError
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE
@@ -73,7 +73,7 @@ def margins(gear: RingGear) -> tuple[Margin, ...]:
 
 def findings(gear: RingGear) -> tuple[Finding, ...]:
     """Remarks on a ring that is legal but poor: thin tip, thin rim."""
-    return tuple(Finding(m.name, m.value, m.limit) for m in (thin_tip(gear), rim(gear)) if m.margin < 0)
+    return tuple(found for m in (thin_tip(gear), rim(gear)) for found in short_of(m.name, m.value, m.limit))
 
 
 def checked_ring(gear: RingGear, normal: RingGear | None = None, helix_angle: float = 0.0) -> RingGear:

@@ -25,7 +25,8 @@ _LENGTHS = (
     (0.5, (11.0, 0.0, 0.1), (12.5, 0.0, 0.1)),
     (1.0, (12.0, 0.0, 0.1), (13.0, 0.0, 0.1)),
 )
-_APART = 0.5
+# shifts of the table between which x lies are nearer than this; x by a centre distance is rounded
+_APART = 0.5 - 1e-9
 
 
 class WormDrive(Record):

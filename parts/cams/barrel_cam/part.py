@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import LateError, Nearest, OffsetError, ParameterError, UndercutError, limit, rounded
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, beyond
 from geometry.base.nearest import last_that_holds
 from geometry.base.record import replace
 from geometry.plane.offset_region import OffsetRegion
@@ -310,9 +310,7 @@ def _findings(keys: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
     steepest = math.degrees(max(cam.greatest_pressure_angle(kind)[0] for kind in kinds))
     found += steep(steepest, usual, "steep_groove" if cam.is_groove else "steep_track")
     limit = _USUAL_ROLLER_SHARE * largest_radius(cam, kept_apex(keys))
-    if cam.radius > limit:
-        found.append(Finding("large_groove_roller", cam.radius, limit))
-    return tuple(found)
+    return (*found, *beyond("large_groove_roller", cam.radius, limit))
 
 
 class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import LateError, Nearest, ParameterError, UndercutError
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, beyond
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
 from parts.base.kind import Others, Report
@@ -249,8 +249,8 @@ def linkage_findings(keys: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ..
     if transmission < _USUAL_TRANSMISSION_ANGLE:
         found.append(Finding("small_transmission_angle", transmission, _USUAL_TRANSMISSION_ANGLE))
     convex = least_convex_radius(cam).value
-    if cam.kind == "roller" and cam.radius > USUAL_ROLLER_SHARE * (convex + cam.radius):
-        found.append(Finding("large_roller", cam.radius, USUAL_ROLLER_SHARE * (convex + cam.radius)))
+    if cam.kind == "roller":
+        found += beyond("large_roller", cam.radius, USUAL_ROLLER_SHARE * (convex + cam.radius))
     if convex < keys.least_curvature_radius * (1 - 1e-6):
         found.append(Finding("linkage_curvature_radius", convex, keys.least_curvature_radius))
     return tuple(found)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 from msgspec import Meta, Struct
 
 from geometry.base.errors import ConvergenceError, Cure, Nearest, ParameterError, UndercutError, limit
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, beyond
 from geometry.base.nearest import nearest
 from geometry.plane.profile import Profile
 from geometry.solids.hub_holes import HubHoles
@@ -491,8 +491,8 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
         if (kept := 90 - max(steepest, back)) < asked - _KEPT_DEG:
             found.append(Finding("transmission_angle_not_kept", kept, asked))
     pitch = least_convex_radius(cam).value + cam.radius
-    if cam.kind == "roller" and cam.radius > USUAL_ROLLER_SHARE * pitch:
-        found.append(Finding("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch))
+    if cam.kind == "roller":
+        found += beyond("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch)
     if spec.oscillating is None and cam.is_flat and spec.follower_offset != 0:
         found.append(Finding("flat_offset", spec.follower_offset, cam.least_plate_diameter()))
     if swings and (within := greatest_radius(cam) - cam.swing.centre_distance) > 0:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec.structs import replace
 
 from geometry.base.errors import OffsetError, ParameterError, UndercutError, limit
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, beyond
 from geometry.base.nearest import moved
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
@@ -55,7 +55,7 @@ _RIM_SHARE = 0.5
 # thinner rims and floors are mistakes of the keyboard, mm
 _LEAST_WALL = 0.05
 # usual play of a roller in its groove, part of its diameter: with less it jams, with more it knocks
-_USUAL_CLEARANCE = (0.0, 0.02)
+_USUAL_CLEARANCE = 0.02
 
 _BASE_CIRCLE_RADIUS = part_mm("circle inside the groove; default: by least_transmission_angle_deg", above=0)
 _LEAST_TRANSMISSION_ANGLE = degrees("gamma_min = 90 - pressure angle, both ways", above=0, below=90, example=60.0)
@@ -234,10 +234,10 @@ def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
             continue
         steepest = math.degrees(greatest_pressure_angle(disk.cam, kind).value)
         found += steep(steepest, usual, code)
-    share = spec.roller_clearance / (2 * spec.follower_radius)
-    if not _USUAL_CLEARANCE[0] < share <= _USUAL_CLEARANCE[1]:
-        found.append(Finding("roller_play", spec.roller_clearance, _USUAL_CLEARANCE[1] * 2 * spec.follower_radius))
-    return tuple(found)
+    most = _USUAL_CLEARANCE * 2 * spec.follower_radius
+    jams = spec.roller_clearance == 0
+    play = (Finding("roller_play", 0.0, most),) if jams else beyond("roller_play", spec.roller_clearance, most)
+    return (*found, *play)
 
 
 class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, beyond, short_of
 from geometry.base.record import replace
 from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.solids.wheel import check_wheel
@@ -272,8 +272,6 @@ def bevel_findings(gear: BevelGear) -> list[Finding]:
         found.append(
             Finding("bevel_undercut", gear.outer(float(begins)).real * 2, gear.outer(gear.root_angle).real * 2)
         )
-    if gear.tip_land < _THIN * gear.module:
-        found.append(Finding("thin_tip", gear.tip_land, _THIN * gear.module))
-    if gear.face_width > (most := min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * gear.module)) * (1 + 1e-9):
-        found.append(Finding("bevel_wide_face", gear.face_width, most))
-    return found
+    found += short_of("thin_tip", gear.tip_land, _THIN * gear.module)
+    most = min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * gear.module)
+    return [*found, *beyond("bevel_wide_face", gear.face_width, most)]

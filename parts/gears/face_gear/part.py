@@ -317,7 +317,6 @@ FACE_GEAR = FaceGearKind()
 
 def face_gear_findings(gear: FaceGear) -> tuple[Finding, ...]:
     """Whether its tips are thin at the outer end."""
-    from geometry.base.findings import Finding
+    from geometry.base.findings import short_of
 
-    tip, least = float(gear.tip_thickness(gear.outer_radius)), _THIN * gear.module
-    return (Finding("thin_tip", tip, least),) if tip < least else ()
+    return short_of("thin_tip", float(gear.tip_thickness(gear.outer_radius)), _THIN * gear.module)

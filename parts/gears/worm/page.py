@@ -12,6 +12,7 @@ from msgspec import Meta, Struct
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.findings import beyond, short_of
 from geometry.base.nearest import nearest
 from geometry.gears.worms import strength
 from geometry.gears.worms.contact import AxisErrors, contact_under
@@ -334,16 +335,16 @@ def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
             page.add("worm_length_used", used, "")
     if keys.worm_length is not None:
         page.add("worm_length", keys.worm_length)
-        if keys.worm_length < (least := drive.least_worm_length):
-            page.note("the worm is shorter than {limit:.5g} mm", limit=least)
+        for found in short_of("worm_length", keys.worm_length, drive.least_worm_length):
+            page.note("the worm is shorter than {limit:.5g} mm", limit=found.limit)
     if keys.face_width is not None:
         page.add("rim_width", keys.face_width)
-        if keys.face_width > (most := drive.most_face_width):
-            page.note("the wheel's rim is wider than {limit:.5g} mm", limit=most)
+        for found in beyond("face_width", keys.face_width, drive.most_face_width):
+            page.note("the wheel's rim is wider than {limit:.5g} mm", limit=found.limit)
     if keys.outer_diameter is not None:
         page.add("wheel_outer_diameter", keys.outer_diameter)
-        if keys.outer_diameter > (most := drive.most_outer_diameter):
-            page.note("the wheel's outer diameter is more than {limit:.5g} mm", limit=most)
+        for found in beyond("outer_diameter", keys.outer_diameter, drive.most_outer_diameter):
+            page.note("the wheel's outer diameter is more than {limit:.5g} mm", limit=found.limit)
 
 
 def _wheel_keys(keys: WormKeys) -> WormWheelSpec:

@@ -1202,6 +1202,36 @@ def test_the_least_length_of_a_worm_goes_by_the_shift(shift: float, starts: int,
     assert values_of(words)["values"]["least_worm_length"] == pytest.approx(least, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("module", "quotient", "teeth", "distance", "least"),
+    # (8 + 0.06 z2) m of x = -0.5, (11 + 0.1 z2) m of x = 0.5 by GOST 19650
+    [(1.6, 8, 31, 30.4, 15.776), (3.15, 8, 40, 74.025, 32.76), (3.15, 10, 31, 66.15, 44.415), (2, 10, 40, 51, 30.0)],
+)
+def test_a_shift_that_a_centre_distance_asks_has_its_own_row(
+    module: float, quotient: int, teeth: int, distance: float, least: float
+) -> None:
+    """x = -0.5000000000000036 had the longer one of two rows, 42.21 mm for 32.76."""
+    words = f"worm module={module} diameter_quotient={quotient} number_of_teeth={teeth} number_of_starts=2"
+    values = values_of(f"{words} working_centre_distance={distance}")["values"]
+    assert values["least_worm_length"] == pytest.approx(least, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "sizes"),
+    [("module=1.6 number_of_starts=4 number_of_teeth=40 diameter_quotient=8", (25.76, 10.72, 68.8)),
+     ("module=1.6 number_of_starts=1 number_of_teeth=31 diameter_quotient=10", (20.576, 14.4, 56.0)),
+     ("module=3.15 number_of_starts=1 number_of_teeth=31 diameter_quotient=8", (40.509, 23.625, 110.25))],
+)  # fmt: skip
+def test_the_least_and_the_greatest_of_gost_19650_are_not_beyond_it(words: str, sizes: tuple[float, ...]) -> None:
+    """(12.5 + 0.09 z2) m, 0.75 d_a1 and d_a2 + 6 m / (z1 + 2): a worm of 25.76 mm was shorter than 25.76 mm."""
+    for share, told in ((0.0, 0), (0.001, 3)):
+        length, width, outer = sizes[0] * (1 - share), sizes[1] * (1 + share), sizes[2] * (1 + share)
+        given = f"worm_length={length:.9g} face_width={width:.9g} outer_diameter={outer:.9g}"
+        notes = values_of(f"worm {words} {given}")["notes"]
+        beyond = [n for n in notes if re.search(r"shorter than|rim is wider than \d|is more than", n)]
+        assert len(beyond) == told
+
+
 def test_a_rim_wider_than_its_throat_is_calculated() -> None:
     """The throat of radius 8 is 16 mm wide; beside it the rim is the outer cylinder, which the worm does not reach."""
     used = [values_of(f"worm module=2 number_of_teeth=40 face_width={b}")["values"] for b in (16, 17, 200)]

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from geometry.base.angles import involute_function
 from geometry.base.errors import GeometryError, ParameterError, PointedTipError
 from geometry.base.record import replace
-from geometry.gears.teeth import limits
+from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.basic_rack import (
     ISO_53,
     BasicRack,
@@ -23,7 +23,9 @@ from geometry.gears.teeth.basic_rack import (
     full_round_radius,
     iso_53,
 )
+from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import checked_gear
+from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.gears.teeth.transverse import transverse_gear
@@ -359,3 +361,9 @@ def test_a_rim_thinner_than_a_module_is_told() -> None:
     for bore, told in ((30.998, False), (31.002, True), (0.0, False)):
         found = [f for f in limits.findings(SpurGear(2.0, 20, iso_53("A"), bore_diameter=bore)) if f.code == "thin_rim"]
         assert [(f.value, f.limit) for f in found] == ([(pytest.approx(17.5 - bore / 2), 2.0)] if told else [])
+
+
+def test_a_rim_of_one_module_is_not_thin_by_rounding() -> None:
+    """7 mm and 26 mm less 6.2 and 26.8 mm: 0.7999999999999998 mm were told to be less than 0.800 mm."""
+    assert not limits.findings(SpurGear(0.8, 20, iso_53("A"), bore_diameter=12.4))
+    assert not ring_limits.findings(RingGear(0.8, 63, math.radians(20), 54.0, PinionCutter(0.8, 20, math.radians(20))))
