@@ -62,7 +62,7 @@ def _text(sheet: Sheet, told: Words) -> str:
     for table in sheet.tables:
         lines += [*plain_table(table, told), ""]
     if sheet.plain_picture:
-        lines += [sheet.plain_picture, ""]
+        lines += [sheet.plain_picture(told), ""]
     lines += [told.text("note: {text}", text=_phrase(note, told)) for note in sheet.notes]
     lines += ["", _phrase(sheet.signed, told)] if sheet.signed else []
     return "\n".join(lines).rstrip("\n") + "\n"
@@ -81,7 +81,7 @@ def _markdown(sheet: Sheet, told: Words) -> str:
     for table in sheet.tables:
         lines += [*markdown_table(table, told), ""]
     if sheet.plain_picture:
-        lines += ["```", sheet.plain_picture, "```", ""]
+        lines += ["```", sheet.plain_picture(told), "```", ""]
     lines += [f"- {_escaped_md(_phrase(note, told))}" for note in sheet.notes]
     lines += ["", _escaped_md(_phrase(sheet.signed, told))] if sheet.signed else []
     return "\n".join(lines).rstrip("\n") + "\n"

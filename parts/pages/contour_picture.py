@@ -35,9 +35,9 @@ class ContourPicture(Record):
         """The picture in a language."""
         return contour_svg(self.contour, self.shown(words), words)
 
-    def letters(self) -> str:
-        """The picture in letters."""
-        return contour_text(self.contour, {f"{n}": at for n, (_, at) in enumerate(self.marks, 1)})
+    def letters(self, words: Words) -> str:
+        """The picture in letters, with the numbers of a language."""
+        return contour_text(self.contour, {f"{n}": at for n, (_, at) in enumerate(self.marks, 1)}, words)
 
     def shown(self, words: Words) -> dict[str, tuple[float, float]]:
         """The marks that lie in the picture, numbered, by their words in a language."""
@@ -236,7 +236,9 @@ def _axes(contour: BlockingContour, scale: float, width: float, height: float, w
     return lines
 
 
-def contour_text(contour: BlockingContour, marks: dict[str, tuple[float, float]], columns: int = 61) -> str:
+def contour_text(
+    contour: BlockingContour, marks: dict[str, tuple[float, float]], words: Words, columns: int = 61
+) -> str:
     """The legal region in letters: # legal, . not; a proposal as its number; x1 to the right, x2 upwards."""
     box = contour.box
     rows = max(3, round(columns * (box.top - box.bottom) / (box.right - box.left) / 2))
@@ -253,6 +255,7 @@ def contour_text(contour: BlockingContour, marks: dict[str, tuple[float, float]]
             x1 = box.left + (box.right - box.left) * column / (columns - 1)
             inside = least_margin(contour.pair, contour.requirements, x1, x2) >= 0
             letters += numbers.get((column, row), "#" if inside else ".")
-        lines.append(f"{x2:6.2f} {letters}")
-    foot = f"{box.left:.2f}".ljust(columns - 6) + f"{box.right:6.2f}"
+        lines.append(f"{words.decimal(f'{x2:.2f}'):>6} {letters}")
+    left, right = (words.decimal(f"{end:.2f}") for end in (box.left, box.right))
+    foot = left.ljust(columns - 6) + right.rjust(6)
     return "\n".join([*lines, f"       {foot}  x1"])

@@ -118,7 +118,7 @@ class Sheet(Draft):
     signed: Text | None = None
     # what is drawn, the same in letters, and what only json carries
     picture: Picture | None = None
-    plain_picture: str = ""
+    plain_picture: Callable[[Words], str] | None = None
     tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None
     # sheets on paper, made in a language, and the file that is asked for

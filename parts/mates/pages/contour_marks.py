@@ -90,7 +90,7 @@ def show_choices(page: Sheet, contour: BlockingContour | None, choices: Sequence
         page.note("no shifts give a pair that turns")
         return
     page.picture = ContourPicture(contour, tuple((c.name, (c.found.first, c.found.second)) for c in choices))
-    page.plain_picture = page.picture.letters()
+    page.plain_picture = page.picture.letters
     page.data["blocking_contour"] = [
         {"name": line.name, "level": line.level, "points": [[p.real, p.imag] for p in line.points]}
         for line in contour.lines

@@ -232,11 +232,11 @@ def test_a_contour_in_letters_is_legal_where_its_margins_are() -> None:
     """61 columns over the box and half as many rows a length, of which a mark takes one; x1 and x2 at the ends."""
     from geometry.gears.shifts.external import least_margin
 
-    lines = contour_text(CONTOUR, {"1": (0.5, 0.5), "2": (1.5, -0.3)}).splitlines()
+    lines = contour_text(CONTOUR, {"1": (0.5, 0.5), "2": (1.5, -0.3)}, EN).splitlines()
     *rows, foot = lines
     assert len(rows) == round(61 * 1.4 / 2.0 / 2)
     heights = np.linspace(1.1, -0.3, len(rows))
-    assert [row[:6] for row in rows] == [f"{y:6.2f}" for y in heights]
+    assert [row[:6] for row in rows] == [f"{y:6.2f}".replace("-", "\N{MINUS SIGN}") for y in heights]
     across = np.linspace(-0.5, 1.5, 61)
     for y, row in zip(heights, rows, strict=True):
         assert len(row) == 7 + 61
@@ -253,10 +253,11 @@ def test_a_contour_in_letters_is_legal_where_its_margins_are() -> None:
     assert abs(marked["1"][0] - 0.5) < 0.018
     assert abs(marked["1"][1] - 0.5) < 0.036
     assert marked["2"] == (1.5, pytest.approx(-0.3))
-    assert foot.split() == ["-0.50", "1.50", "x1"]
-    assert foot.index("-0.50") == 7
+    assert foot.split() == ["\N{MINUS SIGN}0.50", "1.50", "x1"]
+    assert foot.index("\N{MINUS SIGN}0.50") == 7
     assert foot.index("1.50") + 4 == 7 + 61
-    assert PICTURE.letters().splitlines()[0][:6] == "  1.10"
+    assert PICTURE.letters(EN).splitlines()[0][:6] == "  1.10"
+    assert PICTURE.letters(words("uk")).splitlines()[0][:6] == "  1,10"
     # the second of three is beyond the box, and shown in no picture
     assert PICTURE.shown(EN) == {"1: chosen": (0.5, 0.5), "3: edge": (1.5, -0.3)}
 
