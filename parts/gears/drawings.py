@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -73,6 +73,7 @@ _LEAST_SECTION = 20.0
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
     from geometry.gears.worms.body import WormBody
+    from geometry.gears.worms.worm import Worm
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -317,6 +318,17 @@ def _with_thread(sizes: Sequence[Size], half: float, ends: tuple[complex, comple
     return [thread if size is told else size for size in found]
 
 
+def _thread_marks(worm: Worm, half: float, way: float) -> Iterator[Stroke]:
+    """Which way the thread runs as it is seen, three lines near the axis after GOST 2.402: a right-hand one to the left
+    as it rises (``way`` -1).
+    """
+    end = _MARK * worm.root_radius * complex(way * math.tan(worm.lead_angle), 1.0) / 2
+    # within the thread, however short or steep it is
+    end *= min(1.0, half / 2 / abs(end.real)) if end.real else 1.0
+    apart = min(_APART * half, _APART * worm.root_radius)
+    yield from ((THIN, Line(k * apart - end, k * apart + end)) for k in (-1, 0, 1))
+
+
 def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     """The worm with its shaft from outside, and its bore where that is not round."""
     worm, half, wishes = body.thread.worm, body.length / 2, subject.wishes
@@ -328,6 +340,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=False)]
         roots = [complex(z, way * r) for z, r in body.root_line()]
         strokes += [(THIN, Line(a, b)) for a, b in pairwise(roots)]
+    strokes += _thread_marks(worm, half, -1.0 if keys.hand == "right" else 1.0)
     low, high = body.ends()
     # the requirements tell the angle of the cones at the thread's ends, the table its depth
     cones = [c for c in loop if abs(c.start.imag - c.end.imag) > _NONE and abs(c.start.real - c.end.real) > _NONE

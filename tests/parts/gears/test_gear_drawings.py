@@ -34,6 +34,11 @@ def straight(view: View, layer: str) -> set[Ends]:
     return {near(c.start, c.end) for name, c in view.strokes if name == layer and isinstance(c, Line)}
 
 
+def roots(view: View) -> set[Ends]:
+    """Thin lines on one side of the axis: marks of the thread's direction stand over it."""
+    return {ends for ends in straight(view, THIN) if math.prod(p.imag for p in ends) > 0}
+
+
 def mirrored(lines: set[Ends], way: complex = 1) -> set[Ends]:
     """Lines and their image in the x axis; ``way`` -1: in the y axis."""
     return lines | {near(*(way * p.conjugate() for p in ends)) for ends in lines}
@@ -226,7 +231,7 @@ def test_a_worm_is_seen_with_its_shaft_and_its_bore_hidden(bore: Any) -> None:
     lines |= {near(-45, -45 + 14j), near(40, 40 + 11.5j)}
     lines |= {near(x, x + 1j * y) for x, y in ((-25.0, 14.0), (-edge, 24.0), (edge, 24.0), (25.0, 12.5), (39.0, 12.5))}
     assert straight(view, VISIBLE) == mirrored(lines)
-    assert straight(view, THIN) == mirrored({near(-25 + 15.2j, 25 + 15.2j)})
+    assert roots(view) == mirrored({near(-25 + 15.2j, 25 + 15.2j)})
     assert straight(view, AXIS) == set()
     assert [(a.start, a.end) for a in view.axes] == [(-45, 40), (-25 + 20j, 25 + 20j), (-25 - 20j, 25 - 20j)]
     # the key of a bore of 12 is 4 wide, its way 1.8 deep (DIN 6885)
@@ -283,7 +288,7 @@ def test_a_thread_that_runs_out_is_told_as_far_as_it_is_whole() -> None:
     (view,) = drawing_of(WORM | {"thread_ends": "run_out"}).views
     quarter = 4 * math.pi / 4
     wanted = [(-25 - quarter + 24j, -25 + 15.2j), (-25 + 15.2j, 25 + 15.2j), (25 + 15.2j, 25 + quarter + 24j)]
-    assert straight(view, THIN) == mirrored({near(*ends) for ends in wanted})
+    assert roots(view) == mirrored({near(*ends) for ends in wanted})
     thread = sizes(view)["thread_length"]
     assert thread == (pytest.approx(-25 - 15.2j), pytest.approx(25 - 15.2j), "below", "", "")
 
@@ -395,3 +400,23 @@ def test_the_section_of_a_long_rack_is_large_enough_to_be_read(teeth: int) -> No
     assert any(re.match("A-A", text.text) for text in canvas.texts)
     (width,) = (one for one in canvas.dimensions if one.name == "face_width")
     assert 80.0 * width.scale >= 20.0
+
+
+@pytest.mark.parametrize(("hand", "starts", "length"), [("right", 1, 50.0), ("left", 4, 50.0), ("right", 6, 9.0)])
+def test_three_lines_show_which_way_the_thread_of_a_worm_runs(hand: str, starts: int, length: float) -> None:
+    """GOST 2.402: as the near side of its helix is seen, its axis to the right, y upwards: from -x."""
+    keys = WORM | {"hand": hand, "number_of_starts": starts, "thread_length": length, "diameter_quotient": 10.0}
+    (view,) = drawing_of(keys).views
+    marks = sorted((sorted(ends, key=lambda p: p.imag) for ends in straight(view, THIN)
+                    if len({p.imag for p in ends}) == 2), key=lambda ends: ends[0].real)  # fmt: skip
+    # r = 20, lead 4 pi z_1: of (r cos t, r sin t, p t / 2 pi) at t = pi
+    turn = 1.0 if hand == "right" else -1.0
+    seen = complex(4.0 * math.pi * starts / (2 * math.pi), turn * 20.0 * math.cos(math.pi))
+    assert len(marks) == 3
+    for low, high in marks:
+        assert ((high - low) * seen.conjugate()).imag == pytest.approx(0.0, abs=1e-4)
+        assert max(abs(low.real), abs(high.real)) < length / 2
+        assert abs(low.imag + high.imag) < 1e-6
+    steps = [b[0] - a[0] for a, b in pairwise(marks)]
+    assert steps[0] == pytest.approx(steps[1], abs=1e-5)
+    assert steps[0].real > 0.5
