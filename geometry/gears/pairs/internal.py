@@ -24,7 +24,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Label
 
 # modules by which tips that yield keep off where they would touch a fillet or a root, and mm that are rounding
-_OFF_ROOT, _SAME = 0.005, 1e-9
+OFF_ROOT, _SAME = 0.005, 1e-9
 # share of a fillet at its joint with the flank, where what touches it lies on the mate's flank
 _JOINT = 1e-3
 
@@ -75,9 +75,9 @@ class InternalPair(InvolutePair[RingGear, RingSide], dict=True):
     def tips_off_roots(self) -> tuple[float | None, float | None]:
         """Tip radii, mm, that keep off the mate's fillet and root where those of the pair reach it; None: as they are.
 
-        Given tip diameters stay. Others lie ``_OFF_ROOT`` off: corners run on beyond the end of the involute.
+        Given tip diameters stay. Others lie ``OFF_ROOT`` off: corners run on beyond the end of the involute.
         """
-        off, (most, least), distance = _OFF_ROOT * self.module, self.tip_limits, self.working_centre_distance
+        off, (most, least), distance = OFF_ROOT * self.module, self.tip_limits, self.working_centre_distance
         most, least = (
             min(most / 2, self.ring.root_radius - distance),
             max(least / 2, distance + self.pinion.root_radius),

@@ -15,6 +15,7 @@ from functools import cached_property
 from geometry.base.angles import involute_function
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
+from geometry.gears.pairs.internal import OFF_ROOT
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
 from geometry.gears.shifts import external as blocking_contour
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
@@ -115,13 +116,17 @@ class RimMesh(Record, dict=True):
     def rim_end(self, rim_shift: float, central_shift: float) -> float:
         """Where the rim's tips end, from its base circle along the line of action, in modules.
 
-        In a ring as the cutter makes it that one without any named gets they end where its fillets begin, which may
-        be sooner than with a rounded root.
+        In a ring as the cutter makes it that one without any named gets they keep off its fillets, which may begin
+        sooner than those of a rounded root, as tips that nobody gave are made to.
         """
         if not self.internal:
             return blocking_contour.state_of(self._external, rim_shift, central_shift).tips[0]
         state = internal_state(self._rounded[0], rim_shift, central_shift)
-        return min(state.end, self._made_reach(central_shift) - state.line)
+        base = self.rim * math.cos(self.rack.pressure_angle) / (2 * self._share)
+        most = self._made_reach(central_shift) - state.line
+        if state.end <= most:
+            return state.end
+        return math.sqrt(max((math.hypot(base, most) - OFF_ROOT) ** 2 - base**2, 0.0))
 
     def ratio_to(self, rim_shift: float, central_shift: float, end: float) -> float:
         """The contact ratio with the rim's tips cut down to ``end``, modules from its base circle."""
