@@ -402,7 +402,7 @@ def test_the_section_of_a_long_rack_is_large_enough_to_be_read(teeth: int) -> No
     assert 80.0 * width.scale >= 20.0
 
 
-@pytest.mark.parametrize(("hand", "starts", "length"), [("right", 1, 50.0), ("left", 4, 50.0), ("right", 6, 9.0)])
+@pytest.mark.parametrize(("hand", "starts", "length"), [("right", 1, 50.0), ("left", 4, 50.0), ("right", 6, 12.0)])
 def test_three_lines_show_which_way_the_thread_of_a_worm_runs(hand: str, starts: int, length: float) -> None:
     """GOST 2.402: as the near side of its helix is seen, its axis to the right, y upwards: from -x."""
     keys = WORM | {"hand": hand, "number_of_starts": starts, "thread_length": length, "diameter_quotient": 10.0}
