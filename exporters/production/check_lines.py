@@ -10,7 +10,7 @@ from typing import Any
 
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Words, counted, filled, listed, message, words
-from parts.drawing.names import drawn_names
+from parts.drawing.names import caption_name, drawn_names
 from parts.scene.instances import InstanceSpec
 from parts.texts.checks import (
     CLOSE,
@@ -55,7 +55,11 @@ def names_of(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -
 
 
 def picture_names(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -> dict[str, str]:
-    """What a picture calls each instance: by titles, else by what its kind is; those of one name are numbered."""
+    """What a picture calls each instance: by titles, else by what its kind is; those of one name are numbered.
+
+    Of several parts without a title that are of one kind each has its id beside that.
+    """
+    untitled = Counter(drawn_names(part, part.language)[0] for part in parts.values() if part.title is None)
     names: dict[str, str] = {}
     for key, spec in instances.items():
         part = parts[str(spec.part)]
@@ -63,7 +67,9 @@ def picture_names(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Par
         # a title with a number of a group is a name, one with an id is none
         titled = part.title is not None and own in (part.title, f"{part.title} {own.rpartition(' ')[2]}")
         plain = own.rpartition(" ")[2].isdigit() or own == part.title
-        names[key] = spec.title or (own if titled and plain else drawn_names(part, part.language)[0])
+        called = drawn_names(part, part.language)[0]
+        kind = caption_name(part) if untitled[called] > 1 else called
+        names[key] = spec.title or (own if titled and plain else kind)
     many, taken = Counter(names.values()), Counter[str]()
     for key, name in names.items():
         if many[name] > 1 and instances[key].title is None:

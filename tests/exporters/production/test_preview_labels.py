@@ -48,7 +48,7 @@ def test_parts_over_each_other_keep_their_names_apart(text: str, tmp_path: Path)
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) in (0, 1)
     picture = (tmp_path / "pile" / "pile.preview.svg").read_text(encoding="utf-8")
     found = re.findall(
-        r'<text x="([-\d.e]+)" y="([-\d.e]+)" style="[^"]*font-size:([\d.]+)px[^"]*">((?:plate_number_|Plate )\d)<',
+        r'<text x="([-\d.e]+)" y="([-\d.e]+)" style="[^"]*font-size:([\d.]+)px[^"]*">(Plate plate_number_\d)<',
         picture,
     )
     assert len(found) == 8
@@ -126,8 +126,8 @@ def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
     picture = (tmp_path / "two" / "two.preview.svg").read_text(encoding="utf-8")
     assert re.findall(r">([^<>]*Plate[^<>]*)</text>", picture) == [
-        "Plate 1",
-        "without its name in the picture: Plate\xa02",
+        "Plate large",
+        "without its name in the picture: Plate\xa0small",
     ]
 
 

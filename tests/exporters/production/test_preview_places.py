@@ -21,7 +21,7 @@ from tests.exporters.production.test_checks_told import PARTS
 
 SVG = "{http://www.w3.org/2000/svg}"
 LETTER = 0.6
-NAMES = ("Gear 1", "Gear 2", "Plate")
+NAMES = ("Gear a", "Gear b", "Plate")
 
 
 @pytest.fixture(scope="module")
