@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
@@ -138,11 +139,13 @@ def belt_mesh(
         raise ParameterError(keys[0], teeth, "belt_too_short_for_pulleys", Nearest(fewest, "at_least"))
     if distance is None:
         return BeltMesh(pulleys, found, most)
-    if distance > found * (1 + _ROUNDING):
+    # as it is told, with five decimals, a distance may be beyond the taut one
+    if distance > found + PLACED_MM:
         raise ParameterError(
             keys[1], distance, "belt_too_short", limit(found, distance, digits=6), teeth=most
         )  # fmt: skip
-    fitting = math.ceil(BeltDrive(radii, distance).length / pitch - _ROUNDING)
+    fitting = math.ceil(BeltDrive(radii, distance - PLACED_MM).length / pitch)
     if teeth is not None and fitting < teeth:
         raise ParameterError(keys[0], teeth, "belt_too_long", Nearest(fitting), teeth=fitting)
-    return BeltMesh(pulleys, distance, fitting)
+    taut = exact_distance(radii, fitting * pitch, least)
+    return BeltMesh(pulleys, min(distance, taut or distance), fitting)

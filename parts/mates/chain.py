@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
@@ -153,7 +154,7 @@ def chain_mesh(
         raise ParameterError(keys[1], distance, "chain_too_short", limit(far * pitch, distance), links=_MOST_LINKS)
     if links is None:
         assert distance is not None
-        return ChainMesh(sprockets, distance, links_for(teeth, distance / pitch, least))
+        links = links_for(teeth, (distance - PLACED_MM) / pitch, least)
     found = exact_distance(teeth, links, least)
     if found is None:
         more = (k for k in range(links + 1, links + _TRIED) if k % 2 == 0)
@@ -161,11 +162,12 @@ def chain_mesh(
         raise ParameterError(keys[0], links, "chain_too_short_for_sprockets", cure)
     if distance is None:
         return ChainMesh(sprockets, found * pitch, links)
-    if distance > found * pitch * (1 + 1e-9):
+    # as it is told, with five decimals, a distance may be beyond the taut one
+    if distance > found * pitch + PLACED_MM:
         raise ParameterError(
             keys[1], distance, "chain_too_short", limit(found * pitch, distance, digits=6), links=links
         )
-    needed = links_for(teeth, distance / pitch, least)
+    needed = links_for(teeth, (distance - PLACED_MM) / pitch, least)
     if links >= needed + _TOO_MANY:
         raise ParameterError(keys[0], links, "chain_too_long", Nearest(needed), links=needed)
-    return ChainMesh(sprockets, distance, links)
+    return ChainMesh(sprockets, min(distance, found * pitch), links)

@@ -19,8 +19,8 @@ from geometry.gears.belts.pulley import Pulley
 
 # of the smaller pulley that carry at least, by makers' handbooks
 _LEAST_IN_MESH = 6
-# of a pitch, by which a belt is as long as it must be
-_SAME = 1e-6
+# mm: a belt that is longer by less is taut: what a distance rounded to hundredths of a millimetre leaves
+_LOOSE = 0.01
 
 
 class BeltDrive(Record):
@@ -131,7 +131,7 @@ class BeltMesh(Record):
     def findings(self) -> tuple[Finding, ...]:
         """A belt that is not taut, few teeth that carry."""
         found = []
-        if self.slack > _SAME * self.pitch:
+        if self.slack > _LOOSE:
             found.append(Finding("belt_hangs_loose", self.slack, 0.0))
         if self.in_mesh < _LEAST_IN_MESH:
             found.append(Finding("few_belt_teeth_in_mesh", self.in_mesh, _LEAST_IN_MESH))

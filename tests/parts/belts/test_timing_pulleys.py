@@ -144,6 +144,23 @@ def test_both_pulleys_turn_the_same_way_by_their_teeth() -> None:
     assert len(loose["findings"]) == 1
 
 
+@pytest.mark.parametrize(("small", "large", "belt"), [(20, 60, 100), (22, 51, 120), (36, 36, 101), (19, 33, 80)])
+def test_a_distance_as_it_is_told_has_the_belt_that_told_it(small: int, large: int, belt: int) -> None:
+    """Of five decimals every second one is rounded up: it had one tooth more and a note, or was refused."""
+    one, two = PLATE | {"number_of_teeth": small}, LARGE | {"number_of_teeth": large}
+    taut = placed({"number_of_belt_teeth": belt}, one, two)[1]["mates"][0]["working_centre_distance"]
+    for told in (round(taut, 5), math.ceil(taut * 1e5) / 1e5):
+        for more in ({}, {"number_of_belt_teeth": belt}):
+            (mate,) = placed({"centre_distance": told} | more, one, two)[1]["mates"]
+            assert mate["number_of_belt_teeth"] == belt
+            assert mate["working_centre_distance"] == pytest.approx(taut, abs=6e-6)
+            assert "findings" not in mate
+    # rounded to hundredths of a millimetre it leaves the belt as taut as belts are made
+    assert "findings" not in placed({"centre_distance": taut - 0.0049}, one, two)[1]["mates"][0]
+    with pytest.raises(SceneError):
+        placed({"centre_distance": taut + 3e-5, "number_of_belt_teeth": belt}, one, two)
+
+
 def test_teeth_between_flanges_face_each_other_and_flanges_keep_apart() -> None:
     """Middles of 7 mm of teeth on a flange of 1.5 mm, and of 8 mm; tips stand off by half of both flanges."""
     one, two = PLATE | {"flanges": {"diameter": 16.0, "thickness": 1.5}}, LARGE | {"face_width": 8.0}

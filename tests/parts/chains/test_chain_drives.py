@@ -60,6 +60,19 @@ def test_a_chain_that_gives_its_distance_is_taut(links: int) -> None:
     assert mate["chain_slack"] == 0
 
 
+@pytest.mark.parametrize("links", [58, 64, 80, 100])
+def test_a_distance_as_it_is_told_has_the_chain_that_told_it(links: int) -> None:
+    """Of five decimals every second one is rounded up: it had two links more, or was refused."""
+    taut = placed({"number_of_links": links})[1]["mates"][0]["working_centre_distance"]
+    for told in (round(taut, 5), math.ceil(taut * 1e5) / 1e5):
+        for more in ({}, {"number_of_links": links}):
+            (mate,) = placed({"centre_distance": told} | more)[1]["mates"]
+            assert (mate["number_of_links"], mate["findings"]) == (links, [])
+            assert mate["working_centre_distance"] == pytest.approx(taut, abs=6e-6)
+    with pytest.raises(SceneError):
+        placed({"centre_distance": taut + 3e-5, "number_of_links": links})
+
+
 @pytest.mark.parametrize("turn", [0.0, 7.0, 100.0])
 def test_seats_of_a_second_that_stands_already_must_take_the_rollers(turn: float) -> None:
     there = placed({"number_of_links": 80, "direction_deg": 30.0}, instances={"a": {"rotation_deg": turn}, "b": {}})
