@@ -19,7 +19,7 @@ from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.chains.chain import Chain
-    from geometry.gears.chains.sprocket import Sprocket
+    from geometry.gears.chains.sprocket import IsoForm, SeatedForm, Sprocket
     from geometry.gears.teeth.tooth import ToothSide
     from parts.base.readback import Probe
 
@@ -40,6 +40,7 @@ _TIP_DIAMETER = mm(
     most=2 * MOST_LENGTH,
     example=74.0,
 )
+ToothForm = Literal["ISO 606", "GOST 591", "ANSI B29.1"]
 _TOOTH_FORM = Meta(description="standard of the tooth form")
 _FORM = Meta(ge=0, le=1, description="ISO 606: 0 is the minimum tooth gap, 1 the maximum one")
 _TOOTH_BEVEL = mm("bevel of the teeth at both faces, along the axis at their tips; ISO 606: 0.13 p", least=0, most=1000)
@@ -57,13 +58,26 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
     plate_height: Annotated[float, mm("height of its plates", above=0, most=1000, example=11.81)] | None = None
     transverse_pitch: Annotated[float, _TRANSVERSE_PITCH] | None = None
     strands: Annotated[int, Meta(ge=1, le=3, description="strands of it: rows of teeth", examples=[1])] | None = None
-    tooth_form: Annotated[Literal["ISO 606", "GOST 591", "ANSI B29.1"], _TOOTH_FORM] = "ISO 606"
+    tooth_form: Annotated[ToothForm, _TOOTH_FORM] = "ISO 606"
     form: Annotated[float, _FORM] = 0.0
     displaced: Annotated[bool, Meta(description="GOST 591: with displaced centres of the seats, e = 0.03 t")] = False
     tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
     tooth_bevel: Annotated[float, _TOOTH_BEVEL] = 0.0
     face_width: Annotated[float, _FACE_WIDTH] = 0.0
     accuracy: AccuracyKey = None
+
+
+def tooth_gap(standard: ToothForm, form: float, displaced: bool) -> IsoForm | SeatedForm:
+    """The form of the gaps by a standard; refused where it has no such ``form`` or displaced seats."""
+    from geometry.gears.chains.sprocket import AnsiForm, GostForm, IsoForm
+
+    if form and standard != "ISO 606":
+        raise ParameterError("form", form, "of_another_tooth_form", Nearest(0.0), form=standard)
+    if displaced and standard != "GOST 591":
+        raise ParameterError("displaced", displaced, "of_another_tooth_form", Nearest(False), form=standard)
+    forms: dict[str, IsoForm | SeatedForm]
+    forms = {"ISO 606": IsoForm(form), "GOST 591": GostForm(displaced), "ANSI B29.1": AnsiForm()}
+    return forms[standard]
 
 
 class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
@@ -74,20 +88,10 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
 
     def thing(self, keys: SprocketSpec, others: Others) -> Sprocket:
         """The sprocket, checked to have teeth that enter the chain, and holes within them."""
-        from geometry.gears.chains.sprocket import AnsiForm, GostForm, IsoForm, SeatedForm, Sprocket, checked_sprocket
+        from geometry.gears.chains.sprocket import Sprocket, checked_sprocket
 
-        chain = chain_of_keys(keys)
-        told = keys.tooth_form
-        if keys.form and told != "ISO 606":
-            raise ParameterError("form", keys.form, "of_another_tooth_form", Nearest(0.0), form=told)
-        if keys.displaced and told != "GOST 591":
-            raise ParameterError("displaced", keys.displaced, "of_another_tooth_form", Nearest(False), form=told)
-        forms: dict[str, IsoForm | SeatedForm] = {
-            "ISO 606": IsoForm(keys.form),
-            "GOST 591": GostForm(keys.displaced),
-            "ANSI B29.1": AnsiForm(),
-        }
-        sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, forms[told], keys.tip_diameter))
+        chain, gap = chain_of_keys(keys), tooth_gap(keys.tooth_form, keys.form, keys.displaced)
+        sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, gap, keys.tip_diameter))
         sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
         if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):
             raise ParameterError("tooth_bevel", keys.tooth_bevel, "chamfers_meet", most_of(most, keys.tooth_bevel))

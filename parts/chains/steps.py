@@ -28,8 +28,8 @@ def chain_steps(page: Sheet, chain: Chain) -> None:
         page.add("chain_strands", chain.strands)
 
 
-def circle_steps(page: Sheet, sprocket: Sprocket, gear: int = 0) -> None:
-    """Its circles, and the tip diameter within its limits."""
+def circle_steps(page: Sheet, sprocket: Sprocket, gear: int = 0, *, alike: bool = False) -> None:
+    """Its circles, and the tip diameter within its limits; ``alike``: its form is that of the first, told already."""
     form, teeth = sprocket.form, sprocket.number_of_teeth
     page.add("chain_pitch_diameter", 2 * sprocket.pitch_radius, "{p} / sin(pi / {z#})", form.standard, gear)
     if isinstance(form, IsoForm):
@@ -42,14 +42,14 @@ def circle_steps(page: Sheet, sprocket: Sprocket, gear: int = 0) -> None:
         return
     formula = ""
     if sprocket.given_tip_diameter is None:
-        if not gear or gear == 1:
+        if not alike:
             if isinstance(form, GostForm):
                 ratio = sprocket.chain.pitch / sprocket.chain.roller_diameter
                 page.add("pitch_to_roller", ratio, "{p} / {d_r}", form.standard)
             page.add("tooth_height_coefficient", form.height(sprocket.chain), "", form.standard)
         formula = "" if has_lowered_tip(sprocket) else "{p} * ({K} + 1 / tan(pi / {z#}))"
     page.add("chain_tip_diameter", 2 * sprocket.tip_radius, formula, form.standard if formula else "", gear)
-    if not gear or gear == 1:
+    if not alike:
         radius = form.seating_radius(sprocket.chain.roller_diameter)
         page.add("gap_radius", radius, f"0.5025 * {{d_r}} + {form.play:g}", form.standard)
     page.add("chain_root_diameter", 2 * sprocket.root_radius, "{d#} - 2 * {r}", form.standard, gear)

@@ -48,7 +48,9 @@ class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=
     power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
 
 
-table_from = drive_of_kind("timing_pulley", BeltDriveSpec, "outer_diameter", "number_of_belt_teeth", "centre_distance")
+table_from = drive_of_kind(
+    "timing_pulley", BeltDriveSpec, ["outer_diameter"], "number_of_belt_teeth", "centre_distance"
+)
 
 
 @calculation(TOPIC, BeltKeys)

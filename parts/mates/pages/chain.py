@@ -10,9 +10,9 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.chains.drive import ChainMesh, textbook_distance, textbook_links
-from geometry.gears.chains.sprocket import checked_sprocket
+from geometry.gears.chains.sprocket import IsoForm, SeatedForm, checked_sprocket
 from parts.base.texts import N_
-from parts.chains.sprocket import SPROCKET, SprocketSpec
+from parts.chains.sprocket import SPROCKET, SprocketSpec, ToothForm, tooth_gap
 from parts.chains.steps import chain_steps, circle_steps
 from parts.keys.base import MOST_LENGTH, mm, size
 from parts.mates.chain import ChainDriveSpec, chain_mesh
@@ -40,11 +40,19 @@ _MATE_TIP_DIAMETER = mm(
 )
 
 
+_MATE_TOOTH_FORM = Meta(description="standard of the driven sprocket's tooth form; default: that of the driving one")
+_MATE_FORM = Meta(ge=0, le=1, description="`form` of the driven sprocket; default: that of the driving one")
+_MATE_DISPLACED = Meta(description="`displaced` of the driven sprocket; default: that of the driving one")
+
+
 class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the driving sprocket, the teeth of the other one, the chain's length and what it carries."""
 
     mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
     mate_tip_diameter: Annotated[float, _MATE_TIP_DIAMETER] | None = None
+    mate_tooth_form: Annotated[ToothForm, _MATE_TOOTH_FORM] | None = None
+    mate_form: Annotated[float, _MATE_FORM] | None = None
+    mate_displaced: Annotated[bool, _MATE_DISPLACED] | None = None
     number_of_links: Annotated[int, _NUMBER_OF_LINKS] | None = None
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=458.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
@@ -52,7 +60,9 @@ class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
     power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
 
 
-table_from = drive_of_kind("sprocket", ChainDriveSpec, "tip_diameter", "number_of_links", "centre_distance")
+_OWN = "tip_diameter", "tooth_form", "form", "displaced"
+
+table_from = drive_of_kind("sprocket", ChainDriveSpec, _OWN, "number_of_links", "centre_distance")
 
 
 @calculation(TOPIC, ChainKeys)
@@ -61,9 +71,10 @@ def sheet(keys: ChainKeys) -> Sheet:
     one = SPROCKET.thing(keys, {})
     teeth, diameter = keys.mate_number_of_teeth, keys.mate_tip_diameter
     try:
-        two = checked_sprocket(replace(one, number_of_teeth=teeth, given_tip_diameter=diameter))
+        form = _mate_form(keys)
+        two = checked_sprocket(replace(one, number_of_teeth=teeth, given_tip_diameter=diameter, form=form))
     except ParameterError as refusal:
-        raise refusal.renamed(f"mate_{refusal.name}" if refusal.name == "tip_diameter" else refusal.name) from refusal
+        raise refusal.renamed(f"mate_{refusal.name}" if refusal.name in _OWN else refusal.name) from refusal
     mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, "")
     page = Sheet(TOPIC, N_("Chain drive"))
     page.section(N_("Given"))
@@ -72,7 +83,7 @@ def sheet(keys: ChainKeys) -> Sheet:
     page.section(N_("Sprockets"))
     page.add("gear_ratio", mesh.teeth[1] / mesh.teeth[0], "{z2} / {z1}")
     for gear, sprocket in ((1, one), (2, two)):
-        circle_steps(page, sprocket, gear)
+        circle_steps(page, sprocket, gear, alike=gear == 2 and two.form == one.form)
         page.add("sprocket_over_pins", sprocket.over_pins, gear=gear)
     _links(page, mesh, keys.centre_distance)
     if keys.speed_rpm is not None:
@@ -84,6 +95,17 @@ def sheet(keys: ChainKeys) -> Sheet:
                  "textbooks have a belt in its place, about circles as long as both sprockets have teeth"))  # fmt: skip
     page.notes += [finding_message(found) for found in mesh.findings()]
     return page
+
+
+def _mate_form(keys: ChainKeys) -> IsoForm | SeatedForm:
+    """That of the driven sprocket; what only one standard has goes with that."""
+    alike = keys.mate_tooth_form in (None, keys.tooth_form)
+    form, displaced = (keys.form, keys.displaced) if alike else (0.0, False)
+    return tooth_gap(
+        keys.mate_tooth_form or keys.tooth_form,
+        form if keys.mate_form is None else keys.mate_form,
+        displaced if keys.mate_displaced is None else keys.mate_displaced,
+    )
 
 
 def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:

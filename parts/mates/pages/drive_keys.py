@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from parts.base.mate import MateKeys
@@ -12,10 +12,11 @@ from parts.pages.inputs import SceneKeys, chosen_part, given
 TableFrom = Callable[[SceneKeys, str, dict[str, Any]], dict[str, Any]]
 
 
-def drive_of_kind(kind: str, mate: type[MateKeys], diameter: str, *lengths: str) -> TableFrom:
+def drive_of_kind(kind: str, mate: type[MateKeys], own: Sequence[str], *lengths: str) -> TableFrom:
     """The keys of the first wheel (of this ``kind``) of a scene's one such mate, or of that which ``part`` names.
 
-    With them go the teeth of the other wheel, its own ``diameter``, and those of the mate's ``lengths`` that are given.
+    With them go the teeth of the other wheel, what it has of its ``own``, and those of the mate's ``lengths`` that are
+    given.
     """
 
     def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -27,8 +28,8 @@ def drive_of_kind(kind: str, mate: type[MateKeys], diameter: str, *lengths: str)
         first, second = (given(scene.parts[str(scene.instances[key].part)]) for key in (found.first, found.second))
         asked = {key: value for key in lengths if (value := getattr(found, key)) is not None}
         teeth = {"mate_number_of_teeth": second["number_of_teeth"]}
-        if diameter in second and not teeth.keys() & table.keys():
-            asked[f"mate_{diameter}"] = second[diameter]
+        if not teeth.keys() & table.keys():
+            asked |= {f"mate_{key}": second[key] for key in own if key in second}
         return first | asked | teeth | table
 
     return table_from

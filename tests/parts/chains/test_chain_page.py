@@ -73,6 +73,30 @@ def test_the_second_sprocket_has_its_own_tip_diameter(tmp_path: Path) -> None:
     assert refused.value.key == "chain.mate_tip_diameter"
 
 
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ({}, {"tooth_form": "GOST 591", "displaced": True}),
+        ({"tooth_form": "GOST 591"}, {"tooth_form": "ANSI B29.1"}),
+        ({"tooth_form": "ANSI B29.1"}, {"form": 1.0}),
+        ({"form": 0.25}, {"form": 0.75}),
+    ],
+)
+def test_the_second_sprocket_of_a_scene_has_its_own_tooth_form(
+    first: dict[str, object], second: dict[str, object], tmp_path: Path
+) -> None:
+    """As each is told by itself: the second had the form of the first, over pins 0.14 mm less by GOST 591."""
+    of = {"a": {"number_of_teeth": 17, **first}, "b": {"number_of_teeth": 38, **second}}
+    parts = {name: {"kind": "sprocket", "chain": "08B-1", **keys} for name, keys in of.items()}
+    mate = table("[[mates]]", {"kind": "chain_drive", "first": "a", "second": "b", "number_of_links": 80})
+    found = values(str(write_scene(tmp_path / "s.toml", parts, [{"format": "dxf"}], mate)))
+    for part, end in zip(parts, ("first", "second"), strict=True):
+        typed = [f"{key}={json.dumps(value)}" for key, value in {"chain": "08B-1", **of[part]}.items()]
+        alone = json.loads(calculate("sprocket", typed, "json", "en"))["values"]
+        for name in ("chain_tip_diameter", "chain_root_diameter", "sprocket_over_pins"):
+            assert found[name][end] == pytest.approx(alone[name], rel=1e-12), (name, end)
+
+
 def test_a_scene_gives_its_drive() -> None:
     found = values("chain_drive", "part=pinion")
     assert found["number_of_links"] == 80
