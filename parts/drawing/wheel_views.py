@@ -476,7 +476,11 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         diameter("spokes.inner_diameter", spokes.inner_diameter, at.web[0], "left")
         diameter("spokes.outer_diameter", spokes.outer_diameter, at.web[0], "left")
     if shape.hub is not None:
-        diameter("hub.diameter", shape.hub.diameter, at.hub[1] - shape.chamfer_above, "right")
+        # where it has an edge
+        if at.hub[1] != at.web[1]:
+            diameter("hub.diameter", shape.hub.diameter, at.hub[1] - shape.chamfer_above, "right")
+        elif at.hub[0] != at.web[0]:
+            diameter("hub.diameter", shape.hub.diameter, at.hub[0] + shape.chamfer_below, "left")
         if at.hub[1] > width or at.hub[0] < 0:
             edge = -shape.hub.diameter / 2
             found.append(Size("hub.length", complex(at.hub[0], edge), complex(at.hub[1], edge), "below"))

@@ -28,6 +28,8 @@ _ROW, _TWO_LINES = 8.0, 13.0
 _POSITION, _MOST_COLUMNS = 5.0, 8
 # how many times as wide as the rows a table of positions is beside them at most
 _WIDEST = 4
+# decimals to which equal rows are the same
+_SAME = 9
 # decimals of a size and of a number without unit
 _DECIMALS = {"mm": 3, "": 4}
 # how drawings name what calculations name by their sources
@@ -117,7 +119,10 @@ def own_rows(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:
 def chosen_columns(table: Table, names: Sequence[str]) -> Table:
     """Some of a table's columns, by their symbols."""
     kept = [k for name in names for k, (symbol, _) in enumerate(table.heads) if symbol == name]
-    rows = tuple(tuple(row[k] for k in kept) for row in table.rows)
+    # two that differ in what is left out, a leap of the acceleration, are one
+    rows = tuple(
+        {tuple(round(row[k], _SAME) for k in kept): tuple(row[k] for k in kept) for row in table.rows}.values()
+    )
     return replace(table, heads=tuple(table.heads[k] for k in kept), rows=rows)
 
 

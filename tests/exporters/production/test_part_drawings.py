@@ -608,6 +608,22 @@ def test_equal_holes_are_told_circle_by_circle_and_a_collar_is_seen_on_the_face(
     assert any("4 on the circle Ø50: " in text.dxf.text for text in space.query("TEXT"))
 
 
+@pytest.mark.parametrize("side", ["below", "above", ""])
+def test_the_diameter_of_a_hub_stands_where_it_has_an_edge(tmp_path: Path, side: str) -> None:
+    """At the end face beyond the rim; of one that is flush with it nothing is seen, and it had a size all the same."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 12.0, "bore_diameter": 12.0}
+    hub = {"diameter": 20.0} | ({side: 7.0} if side else {})
+    space = ezdxf.readfile(drawn(tmp_path, gear | {"hub": hub})).modelspace()
+    found = [d.dxf for d in space.query("DIMENSION") if abs(d.dxf.actual_measurement - 20.0) < 1e-6]
+    assert len(found) == (1 if side else 0)
+    level = [
+        line.dxf for line in space.query("LINE[layer=='OUTLINE']") if abs(line.dxf.start.y - line.dxf.end.y) < 1e-6
+    ]
+    for size in found:
+        ends = [p.x for e in level for p in (e.start, e.end) if abs(p.y - size.defpoint2.y) < 1e-6]
+        assert size.defpoint2.x == pytest.approx((min if side == "below" else max)(ends), abs=1e-6)
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("side", ["below", "above"])
 def test_a_hub_on_one_side_closes_no_chain_and_a_negative_helix_is_told_by_its_hand(tmp_path: Path, side: str) -> None:
