@@ -16,9 +16,10 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import ParameterError
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
+from parts.keys.pins import MARGIN, most_of
 from parts.recipes.making import Making, hole, holes_on, mark, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
@@ -123,6 +124,11 @@ class _Sizes:
         for name in ("clearance", "fit"):
             if getattr(keys, name) > (most := keys.pin_diameter * _LOOSE):
                 raise self._refused((name, "pin_diameter"), "pins_lie_loose", most=most, diameter=keys.pin_diameter)
+        # dowels stand in the middle of the rim
+        if keys.pin_diameter > (most := _RIM * (1 - MARGIN)):
+            raise ParameterError(
+                "pin_diameter", keys.pin_diameter, "hole_reaches_edge", most_of(most, keys.pin_diameter)
+            )
         # the pinion stands two gaps higher than the ring
         if keys.plate_thickness <= 2 * keys.axial_gap:
             raise self._refused(("axial_gap", "plate_thickness"), "ring_beside_pinion")
@@ -139,7 +145,8 @@ class _Sizes:
             raise self._axles_meet(between, "axle_diameter", "teeth", "module")
         least = 2 * (self.pivots + self.boss)
         if keys.platform_size < least:
-            raise ParameterError("platform_size", keys.platform_size, "platform_too_small", Nearest(least, "at_least"))
+            names = ("platform_size", "pin_diameter", "platform_axle_diameter", "second_arm", "teeth", "module")
+            raise self._refused(names, "platform_too_small", least=least)
         if keys.drive == "worms":
             for bore, teeth in zip((keys.axle_diameter, self.tube), keys.worm_wheel_teeth, strict=True):
                 root = (teeth - 2 - 2 * _DEDENDUM) * keys.worm_module

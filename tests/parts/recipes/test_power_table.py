@@ -254,6 +254,10 @@ def test_every_flat_part_is_wide_enough_for_its_kerf() -> None:
         ({"name": "a", "normal_backlash": 3.0}, "backlash_leaves_no_teeth", "assemblies[1].normal_backlash"),
         (PRINT | {"worm_module": 1.0}, "axle_in_the_teeth", "worm_module"),
         ({"platform_size": 40.0}, "platform_too_small", "platform_size"),
+        # a default was blamed, and the value that the rim has no room for was offered
+        ({"pin_diameter": 18.0}, "hole_reaches_edge", "pin_diameter"),
+        ({"platform_axle_diameter": 22.0}, "platform_too_small", "platform_axle_diameter"),
+        ({"platform_axle_diameter": 22.0, "platform_size": 80.0}, "platform_too_small", "platform_axle_diameter"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused_by_its_driver(keys: dict[str, Any], code: str, name: str) -> None:
