@@ -145,8 +145,8 @@ class _Sizes:
             raise self._axles_meet(between, "axle_diameter", "teeth", "module")
         least = 2 * (self.pivots + self.boss)
         if keys.platform_size < least:
-            names = ("platform_size", "pin_diameter", "platform_axle_diameter", "second_arm", "teeth", "module")
-            raise self._refused(names, "platform_too_small", least=least)
+            limits = ("platform_size", "pin_diameter", "platform_axle_diameter", "second_arm", "teeth", "module")
+            raise self._refused(limits, "platform_too_small", least=least)
         if keys.drive == "worms":
             for bore, teeth in zip((keys.axle_diameter, self.tube), keys.worm_wheel_teeth, strict=True):
                 root = (teeth - 2 - 2 * _DEDENDUM) * keys.worm_module
