@@ -158,7 +158,7 @@ def _html_section(section: Section, told: Words) -> str:
 
 def _is_number(step: Step) -> bool:
     """Whether a step's value is a number or a fraction, no words."""
-    return not isinstance(step.value, str) or re.fullmatch(r"-?\d+/\d+", step.value) is not None
+    return not isinstance(step.value, str) or re.fullmatch(r"-?\d+(/\d+)?", step.value) is not None
 
 
 def _subscripts(text: str) -> str:

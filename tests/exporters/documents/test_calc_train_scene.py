@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -178,3 +179,11 @@ def test_worms_turn_in_the_calculation_as_the_drives_turn_them(name: str) -> Non
     assert len(worms) == 2
     for key in worms:
         assert min(abs(abs(turns[key]) - value) for value in told) < 1e-9
+
+
+@pytest.mark.parametrize("form", ["text", "md", "html"])
+def test_a_ratio_of_whole_numbers_has_the_minus_of_all_others(form: str) -> None:
+    """16/32 and 16/48 of bevel and spur wheels: u = 2 (-3) = -6, once as a product and once exactly."""
+    page = calculate("train", ["bevel_reducer"], form, "en")
+    assert "\N{MINUS SIGN}6" in page
+    assert re.search(r"(?<![\w-])-\d", re.sub(r"<style>.*?</style>|<[^>]*>", "", page, flags=re.DOTALL)) is None
