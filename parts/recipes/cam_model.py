@@ -32,7 +32,7 @@ from parts.keys.cam import (
 )
 from parts.keys.law import with_own_laws
 from parts.keys.timing_mark import PLACES
-from parts.recipes.making import Making, hole, place
+from parts.recipes.making import Making, check_play, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
@@ -90,6 +90,8 @@ class _Making(Making):
     def __init__(self, keys: CamModelKeys) -> None:
         super().__init__("cam_model", keys.plate_thickness, keys)
         self.keys, self.rolls = keys, keys.follower == "roller"
+        pins = [keys.roller_pin_diameter] if self.rolls else []
+        check_play(keys.clearance, keys.axle_diameter, keys.guide_pin_diameter, *pins)
         given = {key: getattr(keys, key) for key in _CAM_KEYS}
         self.given = {key: value for key, value in given.items() if value is not None}
         self.cam = cam_of(CamSpec(**self.given))

@@ -12,7 +12,7 @@ from msgspec import Meta
 
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making
+from parts.recipes.making import Making, check_play
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: of the frame about its axles, and at least beyond the hole of one; its corners
@@ -40,6 +40,7 @@ class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
 
 def _expanded(keys: GearPairModelKeys) -> Expansion:
     """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
+    check_play(keys.clearance, keys.axle_diameter)
     thick, making = keys.plate_thickness, Making("gear_pair_model", keys.plate_thickness, keys)
     # named by what students are given
     for wheel, teeth, shift in zip(_WHEELS, keys.teeth, keys.shifts, strict=True):

@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from msgspec.structs import replace
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import kept, nearest
 from parts.base.psv import rows_of
 from parts.recipes.names import NAMES
@@ -26,6 +26,8 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
 _ORDERS, _ORIGINS = rows_of(__file__, "orders"), rows_of(__file__, "origins")
 # of gears whose module is sought, mm
 _LEAST_MODULE = 0.1
+# of a pin's diameter: the most play that it may have in its hole
+LOOSE = 0.25
 # rounding of a square plate's corners; depth of marks where what has them is thick enough, mm
 _CORNER, _MARK = 10.0, 0.4
 
@@ -53,6 +55,13 @@ def refused_by(
     if not isinstance(given, float) or not isinstance(end, float):
         return ParameterError(name, list(given) if isinstance(given, tuple) else given, code, None, **told)
     return ParameterError(name, given, code, partial(nearest, partial(works, name), given, end), **told)
+
+
+def check_play(clearance: float, *diameters: float) -> None:
+    """Refuse a clearance with which the thinnest of some pins, mm, lies loose in its hole."""
+    if clearance > (most := min(diameters) * LOOSE):
+        told = {"most": most, "diameter": min(diameters)}
+        raise ParameterError("clearance", clearance, "pins_lie_loose", limit(most, clearance), **told)
 
 
 def module_to_span(given: float, span: float, step: int = 1) -> Nearest | None:

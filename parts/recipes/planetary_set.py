@@ -30,7 +30,7 @@ from parts.base.part_keys import Density, Material
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import Double, HelixAngle
 from parts.keys.mate import further
-from parts.recipes.making import Making, hole, holes_on, mark, on_circle
+from parts.recipes.making import Making, check_play, hole, holes_on, mark, on_circle
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
@@ -180,6 +180,7 @@ PLANETARY_SET = Recipe(PlanetarySetKeys, _expanded)
 def _settled(keys: PlanetarySetKeys) -> _Set:
     """Teeth that are assembled, shifts that meet at one distance."""
     scheme = SCHEMES[keys.scheme]
+    check_play(keys.clearance, keys.pin_diameter, keys.shaft_diameter)
     if keys.second_module is not None and not scheme.double:
         raise ParameterError("second_module", keys.second_module, "one_rim_one_module")
     modules = keys.module, keys.second_module or keys.module

@@ -20,7 +20,7 @@ from geometry.base.errors import ParameterError
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
 from parts.keys.pins import MARGIN, most_of
-from parts.recipes.making import Making, hole, holes_on, mark, on_circle, place, refused_by
+from parts.recipes.making import LOOSE, Making, hole, holes_on, mark, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -28,8 +28,6 @@ _ROOT, _RIM = 1.25, 8.0
 # mm: wall beside a hole, of a boss about a pin beyond its radius, of a tube; feet, cranks by hand, handles
 _WALL, _BOSS, _TUBE = 3.0, 3.0, 3.0
 _FOOT, _FEET_HEIGHT, _HANDLE, _GRIP = 10.0, 70.0, 6.0, 25.0
-# of a pin's diameter: the most play that it may have in its hole
-_LOOSE = 0.25
 # worms: quotient q; addendum, dedendum and length of the thread, modules; bearings, neck before them, collar, mm
 _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
@@ -122,7 +120,7 @@ class _Sizes:
         if pinion >= ring:
             raise ParameterError("teeth", list(keys.teeth), "ring_as_its_wheel")
         for name in ("clearance", "fit"):
-            if getattr(keys, name) > (most := keys.pin_diameter * _LOOSE):
+            if getattr(keys, name) > (most := keys.pin_diameter * LOOSE):
                 raise self._refused((name, "pin_diameter"), "pins_lie_loose", most=most, diameter=keys.pin_diameter)
         # dowels stand in the middle of the rim
         if keys.pin_diameter > (most := _RIM * (1 - MARGIN)):

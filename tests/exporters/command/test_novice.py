@@ -489,3 +489,24 @@ def test_why_no_row_of_a_catalogue_can_be_built_is_told(tmp_path: Path, capsys: 
         main(["catalogue", str(tmp_path / "x.toml"), "--vary", "a.number_of_teeth=8-20", "--out", str(tmp_path)]) == 2
     )
     assert "; the first: parts.a.number_of_teeth: must be a whole number; " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("kind", "keys", "most"),
+    [
+        ("planetary_set", "teeth = [24, 24, 72]\nclearance = 40.0\n", "1.5"),
+        ("planetary_set", "teeth = [24, 24, 72]\npin_diameter = 2.0\nclearance = 3.0\n", "0.5"),
+        ("gear_pair_model", "teeth = [13, 21]\nclearance = 3.0\n", "1.5"),
+        ("power_table", "clearance = 3.0\n", "1"),
+    ],
+)
+def test_an_assembly_whose_pins_lie_loose_is_refused_with_what_works(
+    kind: str, keys: str, most: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Satellites with 3 mm of play were in contact without a word; at 40 mm the bore of one part alone was told."""
+    text = f'[[assemblies]]\nkind = "{kind}"\n{keys}[[exports]]\nformat = "step"\nassembly = true\n'
+    said = line(tmp_path, capsys, text)
+    assert said.startswith("assemblies[1].clearance = ")
+    assert said.endswith(f"; at most {most} mm works")
+    (tmp_path / "x.toml").write_text(re.sub(r"clearance = .*", f"clearance = {most}", text))
+    assert main(["check", str(tmp_path / "x.toml"), "--quiet"]) == 0
