@@ -36,6 +36,12 @@ LEAST_SEGMENT_MM = 0.02
 # Places and angles that people type have five decimals: parts that a scene puts together by hand fit this well, mm.
 PLACED_MM = 1e-5
 
+
+def is_told(typed: float, exact: float) -> bool:
+    """Whether a length that was typed, mm, is an exact one as it is told: with five decimals."""
+    return typed == round(exact, 5)
+
+
 # Decimals of curves in drawings, mm: what meets still does so better than kernels ask (1e-7), and what machines round
 # differently is far less. A curve moves by so much: both ends, and a radius.
 DRAWN_DECIMALS = 8

@@ -20,6 +20,7 @@ from geometry.base.findings import Finding
 from geometry.base.placement import Placement3, Vector
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
+from geometry.base.tolerance import is_told
 from geometry.gears.pairs.tooth_forces import ToothForces
 from geometry.gears.teeth.limits import undercut
 from geometry.gears.teeth.spur import SpurGear
@@ -344,6 +345,8 @@ def crossed_pair(
         pair = replace(pair, working_centre_distance=working_centre_distance)
         if pair.normal_backlash < -_ROUNDING * working_centre_distance:
             own = _least_distance(bare) if shaft_angle is None else pair.touching_distance
+            if is_told(working_centre_distance, own):
+                return crossed_pair(bare, own, shaft_angle)
             cure = limit(own, working_centre_distance, digits=_DIGITS)
             raise ParameterError("working_centre_distance", working_centre_distance, "teeth_overlap", cure)
     shifts = sum(g.profile_shift_coefficient * g.module for g in bare.gears)

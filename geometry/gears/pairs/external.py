@@ -9,7 +9,7 @@ from functools import cached_property
 
 from geometry.base.both import both
 from geometry.base.record import replace
-from geometry.gears.pairs.involute import InvolutePair, angle_at, common_sums, working_angle
+from geometry.gears.pairs.involute import InvolutePair, common_sums, with_room, working_angle
 from geometry.gears.teeth.limits import undercut
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
@@ -50,7 +50,7 @@ def external_pair(first: SpurGear, second: SpurGear, working_centre_distance: fl
         angle = working_angle(sums, first, second, "first")
         distance = sums.distance(angle)
     else:
-        distance, angle = working_centre_distance, angle_at(sums, working_centre_distance)
+        distance, angle = with_room(sums, working_centre_distance)
     reference = first.reference_radius + second.reference_radius
     shortening = sums.shift - (distance - reference) / first.module
     return ExternalPair(_shortened(first, shortening), _shortened(second, shortening), distance, angle, shortening)

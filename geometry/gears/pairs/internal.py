@@ -14,7 +14,7 @@ from functools import cached_property
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.roots import bracketed_root
 from geometry.curves.involute import Involute
-from geometry.gears.pairs.involute import InvolutePair, Sums, angle_at, common_sums, working_angle
+from geometry.gears.pairs.involute import InvolutePair, Sums, common_sums, with_room, working_angle
 from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.limits import Margin
 from geometry.gears.teeth.ring import RingGear
@@ -157,7 +157,7 @@ def internal_pair(pinion: SpurGear, ring: RingGear, working_centre_distance: flo
     else:
         # farther out there is no more room, but less
         sums.refuse_below_base(working_centre_distance)
-        distance, angle = working_centre_distance, angle_at(sums, working_centre_distance)
+        distance, angle = with_room(sums, working_centre_distance)
     return InternalPair(pinion, ring, distance, angle)
 
 

@@ -21,7 +21,7 @@ from geometry.base.angles import inverse_involute, involute_function, tangent_le
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.record import Record
-from geometry.base.tolerance import TOLERANCES
+from geometry.base.tolerance import TOLERANCES, is_told
 from geometry.curves.curve import Real
 from geometry.gears.teeth.limits import Margin, not_kept
 from geometry.gears.teeth.ring import RingGear
@@ -423,11 +423,20 @@ def working_angle(sums: Sums, first: SpurGear, second: Gear, blamed: str) -> flo
     raise ParameterError("profile_shift_coefficient", x, f"no_working_angle_with_{blamed}", cure, involute=value)
 
 
-def angle_at(sums: Sums, distance: float) -> float:
-    """alpha_w at a distance, mm, at which the teeth have room; raises ParameterError with the nearest one that has."""
+def with_room(sums: Sums, distance: float) -> tuple[float, float]:
+    """A distance, mm, at which the teeth have room, and alpha_w there, rad; one as it is told is that of touching.
+
+    Raises
+    ------
+    ParameterError
+        They have none; names the nearest distance at which they have.
+    """
     if distance >= abs(sums.base) and sums.normal_backlash(sums.angle(distance)) >= -1e-12 * distance:
-        return sums.angle(distance)
-    cure = limit(sums.touching_distance, distance, digits=_NEAREST_DIGITS)
+        return distance, sums.angle(distance)
+    touching = sums.touching_distance
+    if is_told(distance, touching):
+        return touching, sums.angle(touching)
+    cure = limit(touching, distance, digits=_NEAREST_DIGITS)
     raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
 
 

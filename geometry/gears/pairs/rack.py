@@ -14,8 +14,8 @@ import numpy as np
 from geometry.base.angles import tangent_length
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
-from geometry.base.record import Record
-from geometry.base.tolerance import CONTACT_TOLERANCE
+from geometry.base.record import Record, replace
+from geometry.base.tolerance import CONTACT_TOLERANCE, is_told
 from geometry.curves.curve import Real, end_point, start_point
 from geometry.gears.pairs.involute import facing_gaps, refuse_other_rack
 from geometry.gears.teeth.limits import Margin, not_kept
@@ -180,7 +180,10 @@ def rack_pair(gear: SpurGear, rack: Rack, distance: float | None = None) -> Rack
     nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
     pair = RackPair(gear, rack, nominal if distance is None else distance)
     if distance is not None and not pair.normal_backlash >= -1e-12 * nominal:
-        cure = limit(pair.touching_distance, distance, digits=6)
+        touching = pair.touching_distance
+        if is_told(distance, touching):
+            return replace(pair, distance=touching)
+        cure = limit(touching, distance, digits=6)
         raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
     return pair
 

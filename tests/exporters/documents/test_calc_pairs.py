@@ -205,6 +205,32 @@ def test_wishes_are_met() -> None:
 
 
 @pytest.mark.parametrize(
+    ("words", "inwards"),
+    [
+        ("module=2 first.number_of_teeth=20 second.number_of_teeth=21 first.profile_shift_coefficient=0.05"
+         " second.profile_shift_coefficient=0.21", 1),
+        ("module=3 first.number_of_teeth=16 second.number_of_teeth=38 helix_angle_deg=15"
+         " first.profile_shift_coefficient=0.04 second.profile_shift_coefficient=0.1", 1),
+        ("module=1 kind=internal_gear_pair first.number_of_teeth=18 second.number_of_teeth=72 helix_angle_deg=15"
+         " first.profile_shift_coefficient=0.39 second.profile_shift_coefficient=0.04", -1),
+        ("module=2 kind=rack_pair first.number_of_teeth=17 second.number_of_teeth=20 helix_angle_deg=20"
+         " first.profile_shift_coefficient=0.13", 1),
+        ("module=2 kind=crossed_helical_pair first.number_of_teeth=19 second.number_of_teeth=26"
+         " first.helix_angle_deg=20 second.helix_angle_deg=30 first.profile_shift_coefficient=0.4", 1),
+    ],
+)  # fmt: skip
+def test_a_distance_as_it_is_told_is_the_one_that_was_told(words: str, inwards: int) -> None:
+    """Of five decimals every second one left the teeth no room: `the teeth would overlap; at least 41.4981 mm`."""
+    name = "rack_distance" if "rack_pair" in words else "working_centre_distance"
+    told = values_of(f"gear-pair {words}")["values"][name]
+    found = values_of(f"gear-pair {words} working_centre_distance={told:.5f}")["values"]
+    assert found[name] == pytest.approx(told, abs=6e-6)
+    assert 0 <= found["normal_backlash"] < 6e-6
+    with pytest.raises(SceneError, match="overlap"):
+        values_of(f"gear-pair {words} working_centre_distance={told - inwards * 3e-5!r}")
+
+
+@pytest.mark.parametrize(
     ("module", "second", "least"), [(2, 60, 0.120), (2, 61, 0.140), (2, 105, 0.140), (5, 80, 0.185), (4, 80, 0.185)]
 )
 def test_a_range_of_side_clearances_holds_its_last_distance(module: int, second: int, least: float) -> None:
