@@ -269,8 +269,8 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
             continue
         # those of a long view stand above it, where the columns beside it would be higher than the view is
         is_long = not free and wide > _LONG * tall and len(numbers) * _STEP > 2 * tall
-        row = _row(numbers, box, one.ink()) if is_long else None
-        found = row or _led(left, right, _body(view, scale) if free else box, one.ink())
+        row = _row(numbers, box, _ink(one, view)) if is_long else None
+        found = row or _led(left, right, _body(view, scale) if free else box, _ink(one, view))
         if found is not None:
             lines = [*_size_lines(one.canvas)]
             shelved = [line for leader in found for line in leader.lines()]
@@ -293,6 +293,15 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
     ends = [line.end for leader in leaders for line in leader.lines()]
     shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
     return replace(one, box=Box.about([one.box, *(text.box for text in canvas.texts), *shelves]))
+
+
+def _ink(one: Laid, view: AssemblyView) -> Ink:
+    """All that is on paper; leaders keep off the marks of the section as off words."""
+    ink = one.ink()
+    marks = [line for _, line in _marks(view.drawn, one.scale)] if view.marked else []
+    for side in (marks[: len(marks) // 2], marks[len(marks) // 2 :]):
+        ink.boxes += [Box.of(one.scale * p for line in side for p in (line.start, line.end))] if side else []
+    return ink
 
 
 def _body(view: AssemblyView, scale: float) -> Box:

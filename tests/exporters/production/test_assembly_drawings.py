@@ -260,6 +260,27 @@ def test_no_leader_goes_along_an_axis_or_the_mark_of_a_section() -> None:
     assert len(found) == 2
 
 
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(
+    "address", ["chain_drive", "belt_drive", "helical_pair", "cycloidal_reducer", "practicum_pair"]
+)
+def test_no_leader_crosses_the_mark_of_a_section(address: str) -> None:
+    """A stroke 7 mm long and its arrow: the leader of a sprocket ran through both, 3 degrees off the stroke."""
+    raw = scene(address, exports=[{"format": "svg", "purpose": "assembly"}])
+    raw.get("defaults", {}).pop("kerf", None)
+    (job,) = plan_build(scene_from_dict(raw, "s", "s"), "s", [], []).sheets
+    assert isinstance(job, SheetJob)
+    frame = [s.curve for s in job.canvas.strokes if s.layer == "FRAME" and isinstance(s.curve, Line)]
+    strokes = [c for c in frame if abs(abs(c.end - c.start) - 7.0) < 1e-6 and abs((c.end - c.start).imag) < 1e-9
+               and any(t.text == "A" and abs(t.box.middle - c.start) < 15.0 for t in job.canvas.texts)]  # fmt: skip
+    assert len(strokes) == 2
+    for line in leaders(job):
+        way = shapely.LineString([(p.real, p.imag) for p in (line.start, line.end)])
+        for c in strokes:
+            left, right = sorted((c.start.real, c.end.real))
+            assert not way.intersects(shapely.box(left, c.start.imag - 5.0, right, c.start.imag))
+
+
 def test_a_leader_comes_from_the_side_on_which_its_part_stands() -> None:
     """A height stands on the right: a leader from the left crosses the other part, one from the right the height."""
     parts = {"left": DISC, "right": DISC | {"diameter": 60.0}}
