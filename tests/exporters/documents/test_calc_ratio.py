@@ -1,0 +1,84 @@
+"""Numbers of teeth for a ratio, against all numbers there are, each set judged by exact fractions."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from fractions import Fraction
+
+import pytest
+
+from geometry.gears.pairs.ratios import teeth_for
+from tests.exporters.making import run
+
+LEAST, MOST = 6, 21
+
+
+def front(ratio: Fraction, stages: int, share: Fraction, *, coaxial: bool) -> set[tuple[int, ...]]:
+    """Of all numbers those that no set with fewer teeth, or as few, is nearer than."""
+    judged = []
+    for teeth in itertools.product(range(LEAST, MOST + 1), repeat=2 * stages):
+        parts = [Fraction(b, a) for a, b in zip(teeth[::2], teeth[1::2], strict=True)]
+        up = max(ratio, 1 / ratio)
+        off = abs(math.prod(parts) / up - 1)
+        asked = up / math.prod(parts) * teeth[-1]
+        if teeth[-1] != min(max(math.floor(asked + Fraction(1, 2)), LEAST), MOST):
+            continue
+        ordered = sorted(parts) == parts and (stages == 1 or parts[0] >= 1)
+        if ordered and off <= share and (not coaxial or teeth[0] + teeth[1] == teeth[2] + teeth[3]):
+            judged.append((sum(teeth), off, teeth))
+    kept, nearest = set[tuple[int, ...]](), Fraction(10)
+    for _, group in itertools.groupby(sorted(judged), key=lambda one: one[0]):
+        of_size = [*group]
+        best = of_size[0][1]
+        if best < nearest:
+            nearest = best
+            kept |= {teeth for _, off, teeth in of_size if off == best}
+    if ratio >= 1:
+        return kept
+    return {tuple(z for a, b in zip(t[::2], t[1::2], strict=True) for z in (b, a)) for t in kept}
+
+
+@pytest.mark.parametrize("ratio", ["3.2", "1", "2.718281828", "0.31", "3.5"])
+@pytest.mark.parametrize("share", ["0", "0.002", "0.05"])
+def test_one_pair_has_the_fewest_teeth_of_all(ratio: str, share: str) -> None:
+    found = teeth_for(Fraction(ratio), 1, LEAST, MOST, float(share))
+    assert {*found} == front(Fraction(ratio), 1, Fraction(share), coaxial=False)
+    assert len({*found}) == len(found)
+
+
+@pytest.mark.parametrize("coaxial", [False, True])
+@pytest.mark.parametrize(("ratio", "share"), [("7.389", "0.01"), ("9", "0"), ("1.6", "0.002"), ("0.125", "0.01")])
+def test_two_pairs_have_the_fewest_teeth_of_all(ratio: str, share: str, coaxial: bool) -> None:
+    found = teeth_for(Fraction(ratio), 2, LEAST, MOST, float(share), coaxial=coaxial)
+    # both orders of stages of one ratio are one set and its like
+    assert {*found} <= front(Fraction(ratio), 2, Fraction(share), coaxial=coaxial)
+    assert {tuple(sorted(s)) for s in found} == {
+        tuple(sorted(s)) for s in front(Fraction(ratio), 2, Fraction(share), coaxial=coaxial)
+    }
+
+
+def test_the_page_tells_the_fewest_teeth_and_355_of_113(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("ratio=3.14159265", "most_teeth=300", "ratio_tolerance_percent=0.1", "module=2")
+    assert run("calc", "ratio", *words, "--format", "json") == 0
+    page = json.loads(capsys.readouterr().out)
+    # 22/7, the nearest of small numbers
+    assert page["values"]["number_of_teeth"] == {"first": 14, "second": 44}
+    assert page["values"]["reference_centre_distance"] == 58.0
+    assert run("calc", "ratio", "ratio=3.14159265", "least_teeth=113", "most_teeth=300", "--format", "json") == 2
+    assert "2.65486725664 works" in capsys.readouterr().err
+    assert run("calc", "ratio", "ratio=12.368266", "stages=2", "--format", "csv") == 0
+    assert any(line.startswith("19.0,47.0,12.0,60.0,") for line in capsys.readouterr().out.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("ratio=30",), "10 works"), (("ratio=3", "coaxial=true"), "coaxial = true: is for two stages; false works"),
+        (("ratio=1", "least_teeth=50", "most_teeth=20"), "at most 20 works"), ((), "ratio.ratio: is missing"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_refused(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], told: str) -> None:
+    assert run("calc", "ratio", *words) == 2
+    assert told in capsys.readouterr().err
