@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geometry.base.record import Record
+from geometry.base.tolerance import is_told
 
 
 class Finding(Record):
@@ -21,10 +22,10 @@ _ROUNDING = 1e-9
 
 
 def short_of(code: str, value: float, limit: float) -> tuple[Finding, ...]:
-    """The remark on a value that does not reach its limit; by rounding alone it does."""
-    return (Finding(code, value, limit),) if value < limit * (1 - _ROUNDING) else ()
+    """The remark on a value that does not reach its limit; by rounding, or as the limit is told, it does."""
+    return (Finding(code, value, limit),) if value < limit * (1 - _ROUNDING) and not is_told(value, limit) else ()
 
 
 def beyond(code: str, value: float, limit: float) -> tuple[Finding, ...]:
-    """The remark on a value beyond its limit; by rounding alone it is not."""
-    return (Finding(code, value, limit),) if value > limit * (1 + _ROUNDING) else ()
+    """The remark on a value beyond its limit; by rounding, or as the limit is told, it is not."""
+    return (Finding(code, value, limit),) if value > limit * (1 + _ROUNDING) and not is_told(value, limit) else ()

@@ -46,6 +46,8 @@ _SHARES = (0.8, 0.6, 0.4, 0.3)
 _MOST_FACE, _LEAST_FACE = 0.99, 1e-3
 # spiral angle of a tooth line at most, anywhere along the face; cutters among which one that works is sought, in R_m
 _STEEPEST_LINE, _CUTTERS = math.radians(60.0), (1.0, 2.0, 5.0, 50.0)
+# rolled below the base cone, rad: both branches of the involute, 2/3 of its cube apart, are one within rounding
+_CUT = 3e-5
 # share of the outer flank that is left at the inner end
 _LEAST_FLANK = 0.01
 
@@ -308,7 +310,7 @@ class BevelGear(Record, dict=True):
             The fillet takes all of the flank.
         """
         inv, end = self.involute, math.pi / 2 - self.pressure_angle
-        if not self.is_undercut:
+        if self._cut_away <= _CUT * math.sin(inv.base):
             return end, float(inv.arc(self.fillet.place(end)[0]))
 
         def lead(u: float) -> float:

@@ -10,6 +10,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding, beyond, short_of
 from geometry.base.record import replace
+from geometry.base.tolerance import is_told
 from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind, Others, Report
@@ -267,7 +268,7 @@ def _spiral_quantities(gear: BevelGear) -> dict[str, float]:
 def bevel_findings(gear: BevelGear) -> list[Finding]:
     """What a bevel gear had better not have: undercut, thin tips, a face too wide for its cones."""
     found = []
-    if gear.is_undercut:
+    if gear.is_undercut and not is_told(gear.profile_shift_coefficient, gear.least_shift):
         begins = gear.involute.angle(gear.joint[1])
         found.append(
             Finding("bevel_undercut", gear.outer(float(begins)).real * 2, gear.outer(gear.root_angle).real * 2)

@@ -107,6 +107,18 @@ def test_the_undercut_one_is_undercut_and_the_least_shift_ends_it() -> None:
     assert replace(gear, profile_shift_coefficient=gear.least_shift - 1e-6).is_undercut
 
 
+@pytest.mark.parametrize("number", [2, 3])
+def test_a_tooth_that_is_hardly_undercut_keeps_its_flank(number: int) -> None:
+    """From 0 to 6e-5 modules below the least shift it was refused: no part of the involute is left below the tip."""
+    for gear in both_sides(number).gears:
+        for less in (1e-8, 1e-7, 1e-6, 5e-6, 1e-5, 2e-5, 5e-5, 1e-4, 3e-4, 1e-3):
+            cut = replace(gear, profile_shift_coefficient=gear.least_shift - less)
+            if abs(cut.profile_shift_coefficient) < 1:
+                (a, b), (c, d) = (cut.tooth_places(name, SHARE) for name in ("fillet", "flank"))
+                assert (a[-1], b[-1]) == pytest.approx((c[0], d[0]), rel=0, abs=5e-14)
+                assert cut.involute.base - 1e-15 < c[0] < cut.pitch_angle
+
+
 def test_beside_a_plane_mate_it_is_a_spur_gear() -> None:
     """The cones of a pinion whose mate has ten million teeth are cylinders to 1e-6 of its size."""
     rack = BasicRack(math.radians(20.0), 1.0, 0.2, 0.2)
