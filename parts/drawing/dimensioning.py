@@ -55,6 +55,8 @@ _SIGN = 5.0
 # the frame of a tolerance and that of a datum (GOST 2.308): its height, from its lines to words; the triangle of a
 # datum, from that to its frame; a leader's end beside a frame
 _FRAME, _WITHIN, _TRIANGLE, _STUB, _SHELF = 7.0, 1.5, 3.5, 2.5, 3.0
+# how much longer that end is where the frame then stands free of the part
+_SHELVES = (_SHELF, 8.0, 14.0, 20.0)
 # lines that fill that triangle
 _FILL = 17
 # the sign of roughness: heights of its legs; where its words begin
@@ -127,7 +129,7 @@ def laid(
     ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words;
     ``free``: how much dimension lines leave free on a side of the view for what will stand there, mm on paper.
     """
-    free = free or {}
+    free = {**_framed_sides(view), **(free or {})}
     if (usual := _filled(view, scale, language, free, own=own)) is None:
         return None
     # where leaders run over dimension lines, notes choose before sizes
@@ -136,6 +138,18 @@ def laid(
         if other is not None and other.ink.run_over() < over:
             usual = other
     return Laid(view, usual.canvas, scale, usual.extent())
+
+
+def _framed_sides(view: View) -> dict[Side, float]:
+    """What dimension lines leave free for frames of runouts that would stand across them: of a face on the left and of
+    what is round inside.
+    """
+    found: dict[Side, float] = {}
+    for note in view.notes if any(note.datum for note in view.notes) else ():
+        inner = note.at.imag * note.free.imag < 0
+        if note.datum and (inner or note.free.real < 0):
+            found["right" if inner else "left"] = sum(_cells(note.text)) + 2 * _SHELF
+    return found
 
 
 def _filled(
@@ -534,12 +548,12 @@ class _Layout:
                     lines.append(Line(elbow, elbow + side * (off + 1.0)))
                 elif note.datum:
                     # a runout is measured straight out of the surface
-                    for side in (1.0, -1.0) if turn == 0.0 else ():
-                        text, framed = _runout(elbow + side * _SHELF, side, note.text, note.datum)
-                        led: dict[Role, Sequence[Line]] = {
-                            "leader": [Line(tip, elbow), Line(elbow, elbow + side * _SHELF)]
-                        }
-                        yield _Place(led, _arrow(tip, way), text, cost, framed=framed)
+                    for side, long in product((1.0, -1.0), _SHELVES) if turn == 0.0 else ():
+                        foot = elbow + side * long
+                        text, framed = _runout(foot, side, note.text, note.datum)
+                        led: dict[Role, Sequence[Line]] = {"leader": [Line(tip, elbow), Line(elbow, foot)]}
+                        more = cost + (long - _SHELF) / _STEP
+                        yield _Place(led, _arrow(tip, way), text, more, framed=framed)
                     continue
                 else:
                     lines, text = _shelved(elbow, note.text, way, TITLE_TEXT if note.is_letter else TEXT_HEIGHT)
@@ -726,9 +740,14 @@ def _within(words: str, frame: Box) -> Text:
     return text_of(words, frame.middle - complex(text_width(words), TEXT_HEIGHT) / 2)
 
 
+def _cells(size: str) -> tuple[float, float, float]:
+    """The widths of the cells of a runout's frame: of its sign, its size, its datum."""
+    return _FRAME, text_width(size) + 2 * _WITHIN, _FRAME
+
+
 def _runout(foot: complex, side: float, size: str, datum: str) -> tuple[Text, _Framed]:
     """The size of a runout and the frame about it, with its sign and datum, on a side of a place; GOST 2.308."""
-    widths = _FRAME, text_width(size) + 2 * _WITHIN, _FRAME
+    widths = _cells(size)
     left, low = foot.real if side > 0 else foot.real - sum(widths), foot.imag - _FRAME / 2
     sign, number, letter = (Box(a, low, b, low + _FRAME) for a, b in pairwise(accumulate(widths, initial=left)))
     frame, way = Box.about([sign, letter]), cmath.rect(1.0, math.radians(45.0))

@@ -96,12 +96,15 @@ def test_frames_point_at_what_runs_and_name_the_size_that_has_the_mark(
     assert faults(svg) == []
     sheet, mark = Read(dxf), "," if language == "uk" else "."
     letters = []
-    scale, ends, _ = sheet.sized(tip)
+    scale, ends, beside = sheet.sized(tip)
     axis, left = (ends[0] + ends[1]).imag / 2, sheet.sized(width)[1]
     for word, inner in ((f"0{mark}052", True), (f"0{mark}021", False)):
         edges, low, letter = sheet.frame(word)
         letters.append(letter)
         at = sheet.tip(edges, low)
+        if inner and name == "ring":
+            # within the ring, before the line of its inner diameter
+            assert edges[-1] < beside.real
         if inner:
             assert scale * abs(at.imag - axis) == pytest.approx(tip / 2, abs=1e-5)
             assert min(p.real for p in left) < at.real < max(p.real for p in left)
@@ -136,6 +139,9 @@ def test_a_bevel_gear_has_them_at_its_tip_cone_and_back_face(tmp_path: Path) -> 
     sheet = Read(dxf)
     edges, low, _ = sheet.frame("0.021")
     back = sheet.sized(12.0)[1]
+    # between the face and the lines of the sizes beside it
+    assert edges[0] > max(line.real for _, _, points, line in sheet.dimensions
+                          if line.real < min(p.real for p in back) and points[0].real == points[1].real)  # fmt: skip
     assert sheet.tip(edges, low).real == pytest.approx(min(p.real for p in back), abs=1e-6)
     edges, low, _ = sheet.frame("0.052")
     at = sheet.tip(edges, low)
