@@ -204,9 +204,19 @@ class Fit(Record):
     @property
     def diameter(self) -> float:
         """What the set takes, mm: rings' root circles, and the circle that the satellites' tips reach."""
-        x1, x2, x2p, x3 = self.shifts
-        (rim1, first), (rim2, second) = self.meshes[0].tips(x2, x1), self.meshes[1].tips(x2p, x3)
+        (rim1, first), (rim2, second) = self._tips()
         return 2 * max(self.distance + rim1, self.distance + rim2, first, second)
+
+    @property
+    def most_satellites(self) -> int:
+        """The most equally spaced satellites whose tips keep the least gap."""
+        sine = (max(rim for rim, _ in self._tips()) + self.least_gap / 2) / self.distance
+        return 1 if sine > 1 else math.floor(math.pi / math.asin(sine) + _ROUNDING)
+
+    def _tips(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Of the rim and the central wheel of both meshes, as ``RimMesh.tips``."""
+        x1, x2, x2p, x3 = self.shifts
+        return self.meshes[0].tips(x2, x1), self.meshes[1].tips(x2p, x3)
 
 
 class Fitting(Record):

@@ -241,7 +241,7 @@ class _Page:
             nan = math.nan
             shifts = (nan,) * 4 if fit is None else fit.shifts
             sizes = (float(one.diameter), nan, nan) if fit is None else (fit.diameter, fit.distance, fit.gap)
-            most = float(one.most_satellites(exact(self.keys.least_gap)))
+            most = float(self._most_satellites(one) if fit is None else fit.most_satellites)
             teeth, x = (tuple(float(own[k]) for k in self.wheels) for own in (one.teeth, shifts))
             rows.append((*teeth, float(ratio), off, *sizes, most, *x))
         z, x_of = ([(f"{letter}_{wheel}", "") for wheel in self.wheels.values()] for letter in "zx")
@@ -312,7 +312,7 @@ class _Page:
         page.told(least_satellite_angle_deg=360 * float(apart), rim_tip_diameter=float(one.rim_reach))
         chord = float(2 * one.distances[0] * sine_of(apart))
         page.add("neighbour_distance", chord, "2 * {a_12} * sin({theta_s} / 2)")
-        page.add("most_satellites", one.most_satellites(exact(keys.least_gap)))
+        page.add("most_satellites", self._most_satellites(one))
 
     def _modules(self) -> None:
         """Of each mesh, ``{m}`` and ``{m_2}`` in formulas; of helical teeth the normal and the transverse."""
@@ -327,6 +327,10 @@ class _Page:
             page.add("module", float(module), of=of, symbol=f"m_n{mark}", key=f"m_n{key}")
             value, formula = float(module / self.cosine), f"{{m_n{key}}} / cos({{beta}})"
             page.add("transverse_module", value, formula, "ISO 21771", of=of, symbol=f"m_t{mark}", key=f"m{key}")
+
+    def _most_satellites(self, one: PlanetarySet) -> int:
+        """How many fit, by the teeth."""
+        return one.most_satellites(exact(self.keys.least_gap))
 
     def _fit(self, one: PlanetarySet, fit: Fit) -> None:
         """Distance, shifts and what they give."""
@@ -347,6 +351,8 @@ class _Page:
                 page.add("ring_tip_addendum", self._ring_addendum(mesh, state), of=of)
         if math.isfinite(fit.gap):
             page.add("satellite_gap", fit.gap)
+            if fit.most_satellites != self._most_satellites(one):
+                page.add("made_most_satellites", fit.most_satellites)
         page.add("set_diameter", fit.diameter)
         for wheels, mesh, broken in self._plain(one):
             self._interference(wheels, mesh, broken)

@@ -272,3 +272,21 @@ def test_the_contact_ratio_of_teeth_as_made_is_told(teeth: tuple[int, int, int])
     made = (ends[0] - ends[1] + line) / (math.pi * math.cos(math.radians(20)))
     # shortened tips are rounded to 1e-4 mm
     assert told == pytest.approx(made, abs=1e-9 if teeth == (39, 46, 128) else 1e-4)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "satellites", "most"),
+    [((60, 13, 87), 3, 14), ((31, 12, 53), 3, 8), ((49, 22, 91), 2, 8), ((24, 24, 72), 3, 5)],
+)
+def test_the_most_satellites_are_those_of_the_tips_with_their_shifts(
+    teeth: tuple[int, int, int], satellites: int, most: int
+) -> None:
+    """Circles of the tips on the circle of the pins, as the recipe makes both; by the teeth 15, 9 and 9 were told."""
+    keys = {"teeth": [*teeth], "satellites": satellites, "module": 1.0, "shaft_diameter": 3.0, "pin_diameter": 3.0}
+    scene = scene_from_dict({"assemblies": [{"kind": "planetary_set", **keys}]}, "t", "t")
+    parts, _ = make_parts(scene, "t")
+    tip, circle = parts["satellite"].thing.tip_radius, parts["carrier"].keys.pin_circle_diameter / 2
+    gaps = [2 * (circle * math.sin(math.pi / n) - tip) for n in (most, most + 1)]
+    assert gaps[0] > 0 > gaps[1]
+    found = calculated(f"teeth=[{','.join(map(str, teeth))}]", f"satellites={satellites}")["values"]
+    assert found.get("made_most_satellites", found["most_satellites"]) == most
