@@ -76,9 +76,11 @@ TableTolerance = Annotated[
     ),
 ]
 FollowerRadius = Annotated[float, part_mm("radius of the roller or mushroom", least=0), start(8.0)]
-BaseCircle = Annotated[
-    float, part_mm("base circle, where S = 0; default: the least by least_transmission_angle_deg", above=0), start(30.0)
-]
+_BASE_CIRCLE = (
+    "base circle, where S = 0; default: the least by least_transmission_angle_deg, of a flat follower by "
+    "least_curvature_radius"
+)
+BaseCircle = Annotated[float, part_mm(_BASE_CIRCLE, above=0), start(30.0)]
 LeastTransmission = Annotated[
     float, degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0)
 ]

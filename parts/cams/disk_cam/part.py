@@ -219,13 +219,15 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
     angle, radius = keys.least_transmission_angle_deg, keys.follower_radius
     check_radius(FollowerKind(keys.follower), radius)
     spare = 1.0 if keys.least_curvature_radius else 1 + _SPARE
-    if angle is None:
-        raise ParameterError("base_circle_radius", None, "base_circle_missing")
     if keys.follower == "flat":
-        if angle != 45:
+        if angle is None and not keys.least_curvature_radius:
+            raise ParameterError("base_circle_radius", None, "base_circle_missing_flat")
+        if angle not in (None, 45):
             raise ParameterError("least_transmission_angle_deg", angle, "flat_angle_is_45", Nearest(45.0))
         least = flat_base_radius(motion, keys.least_curvature_radius).value
         return max(least * spare, 1e-3 * motion.lift)
+    if angle is None:
+        raise ParameterError("base_circle_radius", None, "base_circle_missing")
 
     def prime_of(tried: float) -> float:
         return roller_prime_radius(motion, keys.follower_offset, math.radians(90 - tried))

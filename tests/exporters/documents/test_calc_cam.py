@@ -53,6 +53,18 @@ def test_lesson_4(case: dict[str, Any]) -> None:
         == pytest.approx([120, 30, 120, 90])  # fmt: skip
 
 
+def test_the_base_circle_of_a_flat_follower_follows_from_its_least_radius_of_curvature_alone() -> None:
+    """The example of the README of gabemorris12/mechanism: R_b 1.893, face 2.55; the digits beyond by s + s'' at 50."""
+    words = ("follower=flat", "lift=1", phases(90, 90, 90, "sine"))
+    values = calculated(*words, "least_curvature_radius=0.25")["values"]
+    assert values["least_base_circle_radius"] == pytest.approx(1.8926312786, abs=1e-10)
+    assert values["least_base_circle_radius"] == pytest.approx(1.893, abs=5e-4)
+    assert values["least_curvature_radius"] == pytest.approx(0.25, abs=1e-9)
+    with pytest.raises(SceneError) as told:
+        calculated(*words)
+    assert (told.value.key, told.value.code) == ("cam.base_circle_radius", "base_circle_missing_flat")
+
+
 @pytest.mark.parametrize("case", [c for c in CASES if ".p5.r0." in c["id"]], ids=lambda c: c["id"])
 @pytest.mark.parametrize(("offset", "side"), [(3, "helps"), (-3, "hinders")])
 def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
