@@ -11,7 +11,7 @@ from geometry.base.errors import GeometryError, LateError, Nearest, ParameterErr
 from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import Record, replace, with_value
-from geometry.base.tolerance import TOLERANCES
+from geometry.base.tolerance import TOLERANCES, is_told
 from geometry.curves.involute import Involute
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE
 from geometry.gears.teeth.joints import pointed_radius
@@ -71,6 +71,16 @@ def undercut(gear: SpurGear) -> Margin:
 def rule_teeth(gear: SpurGear) -> int:
     """z_0 of the rule, 2 h_a / sin^2(alpha) rounded: 17 at 20 degrees and h_a = 1, 32 at 14.5 degrees."""
     return max(round(2 * gear.rack.addendum / math.sin(gear.pressure_angle) ** 2), 1)
+
+
+def undercut_shifts(gear: SpurGear, helix_angle: float = 0.0) -> tuple[float, float] | None:
+    """The shift of an undercut gear and the least one, in normal modules; None: the least, as it is told, is kept.
+
+    ``helix_angle``: where ``gear`` is the transverse section of such teeth, rad.
+    """
+    margin, cosine = undercut(gear), math.cos(helix_angle)
+    shift, least = margin.value / cosine, margin.limit / cosine
+    return (shift, least) if margin.margin < 0 and not is_told(round(shift, 12), least) else None
 
 
 def practicum_undercut(gear: SpurGear) -> Margin:
@@ -141,8 +151,8 @@ def findings(gear: SpurGear, helix_angle: float = 0.0) -> tuple[Finding, ...]:
 
     ``gear``: the transverse section where ``helix_angle`` is not 0, rad; shifts are told in normal modules then.
     """
-    cut, tip, cosine = undercut(gear), thin_tip(gear), math.cos(helix_angle)
-    found = [Finding(cut.name, cut.value / cosine, cut.limit / cosine)] if cut.margin < 0 else []
+    tip, cut = thin_tip(gear), undercut_shifts(gear, helix_angle)
+    found = [] if cut is None else [Finding("undercut", *cut)]
     found += short_of(tip.name, tip.value, tip.limit)
     if gear.bore_radius > 0:
         found += short_of("thin_rim", gear.root_radius - gear.bore_radius, gear.module)

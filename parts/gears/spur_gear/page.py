@@ -265,7 +265,7 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
         symbol = "x_n,0.3" if helix else ""
         page.add("greatest_shift_for_tip_thickness", greatest / math.cos(helix), "", "practicum (1.3)", symbol=symbol)
     page.note("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3")
-    if limits.undercut(gear).margin < 0:
+    if limits.undercut_shifts(gear, helix) is not None:
         page.note("the tooth is undercut: x < x_min")
     if limits.thin_tip(gear).margin < 0:
         page.note("the tip is thinner than 0.3 m")

@@ -1204,6 +1204,17 @@ def test_the_least_length_of_a_worm_goes_by_the_shift(shift: float, starts: int,
 
 
 @pytest.mark.parametrize(
+    "words", ["number_of_teeth=22", "number_of_teeth=13", "number_of_teeth=11 helix_angle_deg=20", "number_of_teeth=9"]
+)
+def test_the_least_shift_as_it_is_told_is_not_undercut(words: str) -> None:
+    """Rounded down by up to 5e-6 modules it was; 1e-5 modules less are."""
+    least = values_of(f"spur module=3 {words}")["values"]["least_shift_without_undercut"]
+    for shift, told in ((round(least, 5), False), (round(least - 1e-5, 5), True)):
+        notes = values_of(f"spur module=3 {words} profile_shift_coefficient={shift!r}")["notes"]
+        assert ("the tooth is undercut: x < x_min" in notes) == told
+
+
+@pytest.mark.parametrize(
     ("module", "quotient", "teeth", "distance", "least"),
     # (8 + 0.06 z2) m of x = -0.5, (11 + 0.1 z2) m of x = 0.5 by GOST 19650
     [(1.6, 8, 31, 30.4, 15.776), (3.15, 8, 40, 74.025, 32.76), (3.15, 10, 31, 66.15, 44.415), (2, 10, 40, 51, 30.0)],
