@@ -17,6 +17,7 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
+from geometry.base.tolerance import is_told
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.chains.chain import Chain
 from geometry.gears.teeth.offset import grown_side
@@ -427,7 +428,7 @@ def _toothless(sprocket: Sprocket) -> ParameterError:
 def _given_tip(given: float, limits: tuple[float, float], start: float, pointed: float) -> TipLimits:
     """A tip diameter by its key."""
     least, most = limits[0], min(limits[1], 2 * pointed * (1 - _MARGIN))
-    if given > most:
+    if given > most and not is_told(given, most):
         near = limit(most, given, digits=6)
         if most < limits[1] or given >= 2 * pointed:
             raise PointedTipError("tip_diameter", given, "tooth_pointed_at", near, diameter=2 * pointed)

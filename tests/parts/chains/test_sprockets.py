@@ -140,6 +140,18 @@ def test_files_take_rollers_and_one_that_does_not_is_caught(tmp_path: Path) -> N
     assert len(RollerProbe(sprocket, 2.0).run(read_dxf(tmp_path / "spoiled.dxf"), 0.0, 1e-6).failures) == 1
 
 
+@pytest.mark.parametrize(("chain", "teeth"), [("12A-1", 15), ("08B-1", 17), ("06B-1", 24), ("16A-1", 31)])
+def test_both_limits_of_a_tip_diameter_work_as_they_are_told(chain: str, teeth: int) -> None:
+    """d + 1.25 p - d1 = 103.527939 mm, told as 103.52794, was refused: beyond 96.7334 to 103.528 mm."""
+    keys = PLATE | {"chain": chain, "number_of_teeth": teeth}
+    for limit in made(keys).thing.form.tips(made(keys).thing.chain, teeth):
+        assert made(keys | {"tip_diameter": round(limit, 5)}).circles["tip_diameter"] == pytest.approx(limit, abs=6e-6)
+        for off in (-2e-3, 2e-3):
+            if off * (limit - 2 * made(keys).thing.tip_radius) > 0:
+                with pytest.raises(SceneError):
+                    made(keys | {"tip_diameter": limit + off})
+
+
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_every_chain_that_a_refusal_names_is_one(language: str) -> None:
     """081 of bicycles was not among them, and nothing else led to it."""
