@@ -36,6 +36,12 @@ _WORDS = re.compile(r"\s*([A-Za-z]\w*(?: +\w+)+)\s*=\s*(.*\S)\s*")
 # what files of other formats begin with
 _OTHERS, _YAML = {"{": "JSON", "<": "XML"}, re.compile(r"[\w-]+:\s*$")
 _NOT_LATIN = re.compile(r"\s*(\w*[^\W\x00-\x7f]\w*)\s*=")
+# a header that lacks a bracket or has others, a key with its unit behind it, a number in brackets
+_HALF_HEADER = re.compile(r"\s*([\[({]*)\s*([A-Za-z][\w-]*(?:\.[\w-]+)*)\s*([\])}]*)\s*(?:#.*)?")
+_UNIT_OF_KEY = re.compile(r"\s*([A-Za-z]\w*)\s*[\[(][^\])=]*[\])]\s*=\s*([^#]*[^#\s])\s*(?:#.*)?")
+_BRACKETED = re.compile(r"\s*([\w.-]+)\s*=\s*\(\s*([-+]?\d+(?:\.\d+)?)\s*\)\s*(?:#.*)?")
+# tables that a scene has several of
+_SEVERAL = ("assemblies", "mates", "drives", "steps", "exports")
 # the header of a table, and what a name in it is made of
 _TABLE = re.compile(r"\s*\[\[?([^\[\]\"'#]+)\]\]?\s*(?:#.*)?")
 _NAME = re.compile(r"\s*[A-Za-z0-9_-]*\s*")
@@ -112,6 +118,12 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "semicolon", {"line": number}
     if why.startswith("Expected newline") and _NEXT_KEY.match(line[column:]):
         return "keys_in_a_row", {"line": number}
+    if (found := _HALF_HEADER.fullmatch(line)) and found[1] + found[3] and not found[2].isdigit():
+        header = f"[[{found[2]}]]" if found[2] in _SEVERAL else f"[{found[2]}]"
+        if header != line.partition("#")[0].strip():
+            return "half_header", {"line": number, "header": header}
+    if (found := _UNIT_OF_KEY.fullmatch(line) or _BRACKETED.fullmatch(line)) and look_alike(found[1]) is None:
+        return "small_letters", {"line": number, "key": found[1], "value": found[2]}
     if (found := _NO_VALUE.fullmatch(line)) and look_alike(found[1]) is None:
         return "no_value", {"line": number, "key": found[1]}
     if why.startswith(("Invalid hex value", "Unescaped")):

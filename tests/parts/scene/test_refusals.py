@@ -228,7 +228,7 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"\x00\x01\x02\xff\xfe", "UTF-8"),
         (bytes(range(256)), "UTF-8"),
         (b"\x00" * 100, "not TOML"),
-        (b"[parts.gear\nkind = 1", "not TOML"),
+        (b"[parts.gear\nkind = 1", "line 1: write [parts.gear]"),
         (b"kind = spur_gear", "words stand in straight quotes"),
         (b'{"parts": {}}', "scenes are TOML, not JSON"),
         (b"a = " + b"[" * 5000 + b"]" * 5000, "nested too deeply"),
@@ -520,7 +520,7 @@ def test_a_board_of_no_pieces_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("line", "kept"), [
-    ("kind spur_gear", "'='"), ("module = *", ""), ("[parts.g", "']'"), ('[parts.g]\n[parts."g"]', "parts.g"),
+    ("kind spur_gear", "'='"), ("module = *", ""), ('["parts".g', "']'"), ('[parts.g]\n[parts."g"]', "parts.g"),
     ("a = [1", ""), ("a = {b = 1", ""), ('a = "1" b', ""),
     ("a = 2026-13-01", ""), ('a = "\x01"', "'\\x01'"),
 ])  # fmt: skip
@@ -586,6 +586,16 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("module = 007.50", "line 2: write module = 7.50"),
         ("kind = `plate`", 'line 2: words stand in straight quotes: kind = "plate"'),
         ("kind = 'plate\"", "line 2: the quotes of kind are not closed"),
+        ("module (mm) = 2.0", "line 2: write module = 2.0"),
+        ("module[mm] = 2.0  # of all", "line 2: write module = 2.0"),
+        ("module = (2.5)", "line 2: write module = 2.5"),
+        ("[parts.wheel", "line 2: write [parts.wheel]"),
+        ("parts.wheel]  # the second", "line 2: write [parts.wheel]"),
+        ("(parts.wheel)", "line 2: write [parts.wheel]"),
+        ("[parts.wheel]]", "line 2: write [parts.wheel]"),
+        ("[[mates]", "line 2: write [[mates]]"),
+        ("mates]]", "line 2: write [[mates]]"),
+        ("[scene", "line 2: write [scene]"),
         ("share = 20%", "line 2: a share is written as a number, without %: share = 0.2"),
         ("speed = 0.5 м/с", "line 2: numbers stand without units: speed = 0.5"),
         ("area = 3 mm²  # of all", "line 2: numbers stand without units: area = 3"),
@@ -626,7 +636,7 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("lift = 1/0", "is not TOML"),
         ("kind = 3.5.6", "is not TOML"),
         ("kind = [plate", "is not TOML"),
-        ("[parts.g", "is not TOML"),
+        ('["parts".g', "is not TOML"),
         ("[parts.whееl]", "the letter «е» at place 3"),
     ],
 )
