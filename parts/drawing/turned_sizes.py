@@ -21,8 +21,9 @@ from parts.texts.sheets import counted_words, sheet_words
 
 # mm in which places are one; parts of one in which directions are; digits of places
 _NONE, _SMOOTH, _DIGITS = 1e-9, 1e-6, 7
-# places along the axis, and distances from it, that sizes tell; what has more of either has a table
-_MOST = 16
+# places along the axis, and distances from it, that sizes tell, in as many rows less one; what has more of either has a
+# table
+_MOST = 21
 
 
 class Own(Record):

@@ -608,6 +608,21 @@ def test_equal_holes_are_told_circle_by_circle_and_a_collar_is_seen_on_the_face(
     assert any("4 on the circle Ø50: " in text.dxf.text for text in space.query("TEXT"))
 
 
+@pytest.mark.parametrize("steps", [17, 20])
+def test_each_step_of_a_long_shaft_has_its_size_with_its_zone(tmp_path: Path, steps: int) -> None:
+    """Lengths from the end, diameters with h11: of more than fifteen steps a table had them, without their zones."""
+    lengths = [8.0 + 0.5 * k for k in range(steps)]
+    diameters = [10.0 + 2 * min(k, steps - k) + 0.1 * k for k in range(steps)]
+    keys = {"kind": "shaft", "steps": [
+        {"diameter": d, "length": b} for d, b in zip(diameters, lengths, strict=True)]}  # fmt: skip
+    dxf, svg = written(tmp_path, keys)
+    assert faults(svg) == []
+    found = sizes(dxf)
+    assert sorted(v for k, v in found.items() if k.startswith("%%c<>h11")) == pytest.approx(sorted(diameters))
+    ends = [sum(lengths[: k + 1]) for k in range(steps)]
+    assert sorted(v for k, v in found.items() if not k.startswith("%%c")) == pytest.approx(ends)
+
+
 @pytest.mark.parametrize("side", ["below", "above", ""])
 def test_the_diameter_of_a_hub_stands_where_it_has_an_edge(tmp_path: Path, side: str) -> None:
     """At the end face beyond the rim; of one that is flush with it nothing is seen, and it had a size all the same."""

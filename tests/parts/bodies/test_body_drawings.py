@@ -328,11 +328,11 @@ def test_holes_of_a_turned_part_stand_in_section_and_face() -> None:
 
 
 def test_the_corners_of_a_ragged_section_have_a_table() -> None:
-    """More of them than sixteen heights or places: each by its place, its diameter and its arc."""
+    """More of them than 21 heights or places: each by its place, its diameter and its arc."""
     rows = [(5.0, 0.0)]
-    for k in range(18):
+    for k in range(21):
         rows += [(20.0 + k, float(k)), (20.0 + k, k + 1.0)]
-    rows.append((5.0, 18.0))
+    rows.append((5.0, 21.0))
     part = part_of({"kind": "turned", "points": [{"r": r, "z": z} for r, z in rows]})
     table = turned_table(part, SCENE, ())
     assert table is not None
