@@ -107,6 +107,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
     if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
         return "key_twice", {"line": number, "key": found[1]}
     if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*\[\[([\w-]+)\]\]", line)):
+        if found[1] not in _SEVERAL:
+            return "table_twice", {"line": number, "table": found[1]}
         rows = enumerate(text.split("\n")[: number - 1], 1)
         first = next((n for n, row in rows if re.match(rf"\s*\[{found[1]}\]", row)), number)
         return "single_brackets", {"line": first, "table": found[1]}

@@ -385,6 +385,10 @@ def test_a_number_that_people_write_is_told_as_it_is_read(
         ('first = "a"', 'gear1 = "a"', "first"),
         ("[parts.a]", '[scene]\nunits = "inch"\n[parts.a]', None),
         ("module = 2.0", "torque = 2.0", None),
+        # d = m z, and no diameter of another circle
+        ("module = 2.0", "pitch_diameter = 34.0", None),
+        ("module = 2.0", "reference_diameter = 34.0", None),
+        ("module = 2.0", "module = 2.0\ncorrection = 0.3", "profile_shift_coefficient"),
     ],
 )
 def test_a_word_of_other_books_leads_to_ours_and_no_word_to_one_like_it_by_chance(

@@ -586,6 +586,8 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("module = 007.50", "line 2: write module = 7.50"),
         ("kind = `plate`", 'line 2: words stand in straight quotes: kind = "plate"'),
         ("kind = 'plate\"", "line 2: the quotes of kind are not closed"),
+        ("[checks]\n[[checks]]", "line 3: [checks] stands there a second time"),
+        ("[mates]\n[[mates]]", "line 2: write [[mates]]"),
         ("module (mm) = 2.0", "line 2: write module = 2.0"),
         ("module[mm] = 2.0  # of all", "line 2: write module = 2.0"),
         ("module = (2.5)", "line 2: write module = 2.5"),
