@@ -89,10 +89,13 @@ class SectionCorner(Record):
 Told = Callable[[Line | Arc], bool]
 
 
-def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curve: True) -> TurnedSizes:
+def turned_sizes(
+    loop: Loop, fits: Fits, language: str, told: Told = lambda curve: True, *, listed: bool = True
+) -> TurnedSizes:
     """All sizes of half a section, or of those of its curves that are ``told`` in a view.
 
-    Where corners are too many for sizes, a table tells them: chamfers and fillets alone have sizes.
+    Where corners are too many for sizes, a table tells them: chamfers and fillets alone have sizes. ``listed``: there
+    is such a table.
     """
     whole = _walled(_joined(loop))
     chamfers, fillets, edges = _taken_apart(whole, told)
@@ -100,7 +103,7 @@ def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curv
     balls = [arc for arc in arcs if abs(arc.centre.imag) < _NONE and _on_axis(start_point(arc), end_point(arc))]
     rounded = [*(whole[k] for k in fillets if told(whole[k]))]
     sizes = [*_chamfers([whole[k] for k in chamfers if told(whole[k])], language)]
-    if not _are_listed(edges):
+    if not (listed and _are_listed(edges)):
         rounded += [arc for arc in arcs if arc not in balls]
         sizes = [*_diameters(edges, fits, _turn(loop), language), *_balls(balls, language), *_lengths(edges), *sizes]
     radii = [arc for arc in rounded if isinstance(arc, Arc)]

@@ -346,7 +346,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     cones = [c for c in loop if abs(c.start.imag - c.end.imag) > _NONE and abs(c.start.real - c.end.real) > _NONE
              and max(c.start.imag, c.end.imag) == worm.tip_radius]  # fmt: skip
     fits = Fits(wishes.shaft, "", wishes.tip)
-    sizes = [*turned_sizes(loop, fits, subject.language, lambda curve: curve not in cones).sizes]
+    sizes = [*turned_sizes(loop, fits, subject.language, lambda curve: curve not in cones, listed=False).sizes]
     if body.run_out:
         root = level((-half, half), -worm.root_radius)
         sizes.append(Size("thread_length", root.start, root.end, "below"))

@@ -91,7 +91,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     # cones and the face width tell the inner tip, the inner root and where the back cone ends (GOST 2.405)
     half = _half(gear, up if is_round else 0.0, (outer,))
     by_cones = {round(2 * at.imag, 7) for at in (_place(gear, gear.rim), _place(gear, gear.front))}
-    told = turned_sizes(half, fits, subject.language).sizes
+    told = turned_sizes(half, fits, subject.language, listed=False).sizes
     sizes = [one for one in told if one.side not in _ACROSS or round(one.value, 7) not in by_cones]
     # on the right stands the angle of the tips
     sizes = [replace(one, side="left") if abs(one.value - 2 * outer.imag) < _NONE else one for one in sizes]

@@ -623,6 +623,23 @@ def test_each_step_of_a_long_shaft_has_its_size_with_its_zone(tmp_path: Path, st
     assert sorted(v for k, v in found.items() if not k.startswith("%%c")) == pytest.approx(ends)
 
 
+@pytest.mark.parametrize("steps", [8, 12])
+def test_a_worm_whose_sizes_have_no_room_is_refused_and_none_is_left_out(tmp_path: Path, steps: int) -> None:
+    """Its table is that of the thread: of more than sixteen places along its shaft no length nor diameter was told."""
+    down = [{"diameter": 26.0 - 1.5 * k, "length": 5.0 + 0.1 * k} for k in range(steps)]
+    up = [{"diameter": 26.5 - 1.5 * k, "length": 6.0 + 0.1 * k} for k in range(steps)]
+    keys = {"kind": "worm", "module": 2.0, "diameter_quotient": 16.0, "thread_length": 40.0, "shaft_below": down,
+            "shaft_above": up}  # fmt: skip
+    if steps > 10:
+        with pytest.raises(SceneError, match="20 rows"):
+            jobs(keys)
+        return
+    found = sizes(drawn(tmp_path, keys))
+    diameters = [*(one["diameter"] for one in (*down, *up)), 36.0]
+    assert sorted(v for k, v in found.items() if k.startswith("%%c")) == pytest.approx(sorted(diameters))
+    assert sum(one["length"] for one in (*down, *up)) + 40.0 == pytest.approx(max(found.values()))
+
+
 @pytest.mark.parametrize("side", ["below", "above", ""])
 def test_the_diameter_of_a_hub_stands_where_it_has_an_edge(tmp_path: Path, side: str) -> None:
     """At the end face beyond the rim; of one that is flush with it nothing is seen, and it had a size all the same."""
