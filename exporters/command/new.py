@@ -14,11 +14,24 @@ from textwrap import wrap
 from types import MappingProxyType
 from typing import Any
 
-from msgspec import Meta, Struct
+from msgspec import Struct
 from msgspec.structs import FieldInfo
 
 from parts.base.registry import KINDS
-from parts.base.schema import described, example_of, fields_of, is_open, own_first, phrase_of, structs_of, tables_of
+from parts.base.schema import (
+    as_toml,
+    described,
+    example_of,
+    fields_of,
+    is_open,
+    marks_of,
+    own_first,
+    phrase_of,
+    starting_value,
+    structs_of,
+    table_line,
+    tables_of,
+)
 from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
@@ -84,7 +97,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
     owner: list[str] = []
     if made_from is not None:
         note = told.text("the part that the one below is made for")
-        owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
+        owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {as_toml(v)}" for key, v in made_from.items()), ""]
     keys = [f for f in fields_of(ExportSpec) if f.encode_name not in SHEET_KEYS]
     lines = [
         *_head(told),
@@ -265,11 +278,11 @@ def plain_scene(text: str, source: str) -> str:
         table = raw[name]
         if name in ("parts", "instances", "boards", "beds"):
             for key, own in table.items():
-                lines += ["", f"[{name}.{key}]", *(f"{k} = {_toml(v)}" for k, v in own.items())]
+                lines += ["", f"[{name}.{key}]", *(f"{k} = {as_toml(v)}" for k, v in own.items())]
         else:
             head = f"[[{name}]]" if isinstance(table, list) else f"[{name}]"
             for own in table if isinstance(table, list) else [table]:
-                lines += ["", head, *(f"{k} = {_toml(v)}" for k, v in own.items())]
+                lines += ["", head, *(f"{k} = {as_toml(v)}" for k, v in own.items())]
     return "\n".join(lines[1:]) + "\n"
 
 
@@ -285,48 +298,17 @@ def _keys(
     """
     for field in keys:
         name, meta = field.encode_name, example_of(field.type)
-        marks = _marks(meta)
+        marks = marks_of(meta)
         given = names is not None and name in names
         set_here = given or field.required or "start" in marks
-        value = _toml(names[name]) if names and given else _toml(shown[name]) if name in shown else _value(field, meta)
+        told_here = names if names and given else shown
+        value = as_toml(told_here[name]) if name in told_here else starting_value(field, meta)
         code, text = f"{'' if set_here else '# '}{name} = {value}", told.say(described(field.type) or "")
         yield f"{code:<44} # {text}" if text else code
-        others = [(_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]
+        others = [(as_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]
         tables = tables_of(field)
-        others += [(_table(t), told.text(phrase_of(t))) for t in (tables[1:] if is_open(field) else tables)]
+        others += [(table_line(t), told.text(phrase_of(t))) for t in (tables[1:] if is_open(field) else tables)]
         yield from (f"# {name} = {v}  # {told.text('... or this: {what}', what=meant)}" for v, meant in others)
-
-
-def _marks(meta: Meta | None) -> Mapping[str, Any]:
-    return (meta.extra if meta is not None else None) or {}
-
-
-def _value(field: FieldInfo, meta: Meta | None) -> str:
-    """What stands at a key as TOML: what a scene starts from, its default, an example, or the first of its tables."""
-    if meta is not None and meta.examples and (is_open(field) or "start" in _marks(meta)):
-        return _toml(meta.examples[-1])
-    tables = tables_of(field)
-    return _toml(field.default) if not is_open(field) else _table(tables[0]) if tables else "…"
-
-
-def _toml(value: object) -> str:
-    """A value as it stands in a scene."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(map(_toml, value)) + "]"
-    return f'"{value}"' if isinstance(value, str) else str(value)
-
-
-def _table(table: type[Struct]) -> str:
-    """A table of a kind, in one line."""
-    config = table.__struct_config__
-    tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
-    shown = [(f, meta) for f in fields_of(table) if not _marks(meta := example_of(f.type)).get("aside")]
-    inner = (f"{f.encode_name} = {_value(f, meta)}" for f, meta in shown)
-    return "{ " + ", ".join([*tag, *inner]) + " }"
 
 
 def _several(kind: str, told: Words) -> list[str]:

@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from exporters.documents.render import FORMATS, render
 from exporters.formats.whole import beside, check_free
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import TOLD, Nearest, ParameterError
 from parts.base.offers import MOST_OFFERS
 from parts.base.psv import rows_of
 from parts.base.readback import ReadError
@@ -190,7 +190,7 @@ def _as_typed(
     def cure() -> Nearest | None:
         found = refusal.nearest
         for _ in range(MOST_OFFERS):
-            if found is None or found.side in ("meant", "same"):
+            if found is None or found.side in TOLD:
                 return found
             try:
                 begun(_retyped(typed, path, found.value) or typed)

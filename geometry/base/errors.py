@@ -14,14 +14,16 @@ class GeometryError(Exception):
     """Root of all errors raised by this project's geometry."""
 
 
-Side = Literal["at_most", "at_least", "exactly", "meant", "same"]
+Side = Literal["at_most", "at_least", "exactly", "meant", "same", "like"]
+# sides whose value is words to be read, and none of the parameter
+TOLD: tuple[Side, ...] = ("meant", "same", "like")
 
 
 class Nearest(Record):
     """The value of a refused parameter nearest to the given one that works; None: it works when left out.
 
     ``side``: an upper limit (``at_most``), a lower one (``at_least``), a value of its own, the word that was
-    probably ``meant``, or a key of ours with the value that says the ``same``.
+    probably ``meant``, a key of ours with the value that says the ``same``, or what the key is written ``like``.
     """
 
     value: float | str | bool | list[float] | None

@@ -19,6 +19,7 @@ REMEDIES = {
     "exactly": N_("{value} works"),
     "meant": N_("did you mean {value}?"),
     "same": N_("{value} is the same"),
+    "like": N_("like {value}"),
     "without": N_("remove {key}"),
 }
 _MORE: dict[str, Text] = {}

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from msgspec import Struct
 from msgspec.structs import fields
 
-from geometry.base.errors import Curable, Cure, Nearest, ParameterError, format_value
+from geometry.base.errors import TOLD, Curable, Cure, Nearest, ParameterError, format_value
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
@@ -191,7 +191,7 @@ def _remedy(nearest: Nearest, refusal: SceneError) -> Message:
         return message(REMEDIES["without"], key=refusal.key.rpartition(".")[2])
     if isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool):
         return message(REMEDIES[nearest.side], value=in_unit(f"{nearest.value:.12g}", nearest.value, refusal.unit))
-    value = str(nearest.value) if nearest.side in ("meant", "same") else format_value(nearest.value)
+    value = str(nearest.value) if nearest.side in TOLD else format_value(nearest.value)
     return message(REMEDIES[nearest.side], value=value)
 
 

@@ -155,6 +155,9 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         # a number in place of a table that has a plain key beside it: bore and bore_diameter
         if type(value) in (int, float) and has_key(_owner(kind, keys[:-1], table), f"{keys[-1]}_diameter"):
             nearest = Nearest(f"{keys[-1]}_diameter", "meant")
+        tables = tables_of(field) if (field := _field(_owner(kind, keys[:-1], table), keys[-1])) else []
+        if nearest is None and tables and "object" in wrong_type.group(1):
+            nearest = Nearest(f"{keys[-1]} = {table_line(tables[0])}", "like")
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
@@ -209,7 +212,7 @@ def _with_form(
     """What a key may hold, and how long it may be or what a word of it looks like where ``said`` is about that."""
     if allowed is None or not keys:
         return allowed
-    field = next((f for f in fields_of(_owner(kind, keys[:-1], table)) if f.encode_name == keys[-1]), None)
+    field = _field(_owner(kind, keys[:-1], table), keys[-1])
     if pair := re.match(r"Expected `array` of length (\d+)", said):
         span = counted("exactly {n} number", "exactly {n} numbers", "n", n=int(pair.group(1)))
         told = next((m.description for m in _metas(field.type) if m.description), "") if field is not None else ""
@@ -235,6 +238,10 @@ def _with_form(
     else:
         return allowed
     return message("{what}: {range}", what=allowed, range=span)
+
+
+def _field(owner: type[Struct], name: str) -> msgspec.structs.FieldInfo | None:
+    return next((f for f in fields_of(owner) if f.encode_name == name), None)
 
 
 def _example(field: msgspec.structs.FieldInfo) -> str | None:
@@ -420,6 +427,39 @@ def example_of(kind: object) -> Meta | None:
 def tables_of(field: msgspec.structs.FieldInfo) -> list[type[Struct]]:
     """The kinds of table that a key takes."""
     return [a for a in get_args(field.type) or (field.type,) if isinstance(a, type) and issubclass(a, Struct)]
+
+
+def marks_of(meta: Meta | None) -> Mapping[str, Any]:
+    """What else is said of a key beside its examples."""
+    return (meta.extra if meta is not None else None) or {}
+
+
+def starting_value(field: msgspec.structs.FieldInfo, meta: Meta | None) -> str:
+    """What stands at a key as TOML: what a scene starts from, its default, an example, or the first of its tables."""
+    if meta is not None and meta.examples and (is_open(field) or "start" in marks_of(meta)):
+        return as_toml(meta.examples[-1])
+    tables = tables_of(field)
+    return as_toml(field.default) if not is_open(field) else table_line(tables[0]) if tables else "…"
+
+
+def as_toml(value: object) -> str:
+    """A value as it stands in a scene."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {as_toml(item)}" for key, item in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(map(as_toml, value)) + "]"
+    return f'"{value}"' if isinstance(value, str) else str(value)
+
+
+def table_line(table: type[Struct]) -> str:
+    """A table of a kind, in one line."""
+    config = table.__struct_config__
+    tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
+    shown = [(f, meta) for f in fields_of(table) if not marks_of(meta := example_of(f.type)).get("aside")]
+    inner = (f"{f.encode_name} = {starting_value(f, meta)}" for f, meta in shown)
+    return "{ " + ", ".join([*tag, *inner]) + " }"
 
 
 def untold(kind: type[Struct], named: Collection[str] = (), place: str = "") -> Iterator[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -87,6 +88,27 @@ def test_a_word_of_another_program_leads_to_ours_or_nowhere(
     refusal = told(tmp_path, capsys, part | {word: value})
     found = re.search(r"did you mean (\S+)\?", refusal)
     assert (found[1] if found else None) == meant
+
+
+_TOOTHED = _SPUR | {"module": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "value"),
+    [
+        (_TOOTHED, "hub", 12.0), (_TOOTHED, "spokes", 5), (_TOOTHED, "bore", True), (_TOOTHED, "holes", 5),
+        (_TOOTHED, "web", 3.0), (_PULLEY, "flanges", True),
+    ],
+)  # fmt: skip
+def test_what_other_programs_tell_by_one_number_is_shown_as_a_table(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], part: Keys, key: str, value: object
+) -> None:
+    """And a larger part takes the line that is shown."""
+    line = re.search(rf"; like ({key} = {{ .* }})\n", told(tmp_path, capsys, part | {key: value}))
+    assert line is not None
+    large = part | {"number_of_teeth": 60} | ({"bore_diameter": 6.0} if key in ("hub", "web") else {})
+    scene = write_scene(tmp_path / "s.toml", {"g": large | tomllib.loads(line[1])}, [{"format": "stl"}])
+    assert run("check", scene) == 0
 
 
 @pytest.mark.parametrize(

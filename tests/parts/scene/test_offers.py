@@ -20,7 +20,7 @@ import pytest
 
 from exporters.production.plan import plan_build
 from geometry.base import nearest as search
-from geometry.base.errors import Nearest
+from geometry.base.errors import TOLD, Nearest
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.cams.plane import undercut
 from parts.base.refusal import SceneError, sentence
@@ -66,7 +66,7 @@ def judged(raw: Raw, refusal: SceneError) -> list[str]:
     if english == ukrainian:
         faults.append(f"not translated: {english}")
     nearest = refusal.nearest
-    if nearest is None or nearest.side == "meant":
+    if nearest is None or nearest.side in TOLD:
         return faults
     place = place_of(refusal.key)
     better = without(raw, place) if nearest.value is None else put(raw, place, nearest.value)
