@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
+from geometry.base.roots import crests, tops
 from geometry.base.series import Series, conjugate, derived, power, product
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.linkage import cosine_range
@@ -24,6 +25,8 @@ from geometry.kinematics.linkage import cosine_range
 _ROOM = 1e-6
 # parts of its links by which a group may still be apart where it is at its limit: a root has half of the digits
 _AT_LIMIT = 1e-7
+# positions of the crank beside which what is greatest over a turn is sought
+_SAMPLES = 720
 
 
 class Stone(Record):
@@ -159,6 +162,81 @@ def turning(way: Series) -> tuple[Real, Real]:
     """Angular velocity (rad/s) and acceleration (rad/s^2) of a direction, counter-clockwise."""
     rate = product(conjugate(way), derived(way))
     return np.imag(rate[0]), np.imag(rate[1])
+
+
+def members(levers: Levers) -> dict[str, str]:
+    """The numbers of the moving links by what they are called; the crank's is 1."""
+    found = {"stone" if isinstance(levers.first, Stone) else "rod": "2"}
+    found["slider" if isinstance(levers.first, Slider) else "lever"] = "3"
+    if levers.second is not None:
+        found |= {"second_rod": "4", "slider" if isinstance(levers.second, Slider) else "second_rocker": "5"}
+    return found
+
+
+def lengths(levers: Levers) -> dict[str, float]:
+    """From joint to joint of the links that have two of them, mm, by what they are called."""
+    found = {} if isinstance(levers.first, Stone) else {"rod": levers.first.rod}
+    if levers.second is not None:
+        found["second_rod"] = levers.second.rod
+    if isinstance(levers.second, Rods):
+        found["second_rocker"] = levers.second.rocker
+    return found
+
+
+class Travel(Record):
+    """The ``least`` and the ``greatest`` place of a link over a turn: mm along its guide from what that runs through,
+    or its direction, rad. ``ratio``: of the crank's angles of both ways, the longer one first; None of what goes round
+    or turns back more often.
+    """
+
+    least: float
+    greatest: float
+    ratio: float | None = None
+
+    @property
+    def run(self) -> float:
+        """From one to the other: a stroke, mm, or a swing, rad."""
+        return self.greatest - self.least
+
+
+def travel(levers: Levers, member: str) -> Travel:
+    """How far a link moves over a turn of the crank.
+
+    Raises
+    ------
+    ParameterError
+        What ``closed`` raises, where the links do not close all the way.
+    """
+    link, step = members(levers)[member], 2 * math.pi / _SAMPLES
+    angles: Real = step * np.arange(_SAMPLES, dtype=float)
+    if member == "slider":
+        joint, group = ("B", levers.first) if levers.second is None else ("D", levers.second)
+        assert isinstance(group, Slider)
+        on, way = group.on, cmath.exp(-1j * group.angle)
+
+        def place(turned: Real) -> Real:
+            return np.real((levers.moved(turned).place(joint) - on) * way)
+    else:
+        # beside a direction between both ends no angle jumps
+        key = "3" if member == "stone" else link
+        seen = np.unwrap(levers.moved(np.append(angles, 2 * math.pi)).angle(key))
+        if abs(seen[-1] - seen[0]) > math.pi:
+            return Travel(0.0, 2 * math.pi)
+        middle = float(seen.min() + seen.max()) / 2
+
+        def place(turned: Real) -> Real:
+            return middle + np.angle(levers.moved(turned).links[key][0] * cmath.exp(-1j * middle))
+
+    values = place(angles)
+    peaks, hollows = (crests(of, angles[tops(sign * values)], step)
+                      for sign, of in ((1, place), (-1, lambda turned: -place(turned))))  # fmt: skip
+    where = np.concatenate([peaks, hollows, angles])
+    values = place(where)
+    low, high = where[[values.argmin(), values.argmax()]]
+    way, rises = abs(high - low) % (2 * math.pi), np.diff(place(angles), append=place(angles[:1])) > 0
+    turns = np.count_nonzero(rises != np.roll(rises, 1))
+    ratio = float(max(way, 2 * math.pi - way) / min(way, 2 * math.pi - way)) if turns == 2 else None
+    return Travel(float(values.min()), float(values.max()), ratio)
 
 
 def swing(levers: Levers) -> tuple[float, float]:

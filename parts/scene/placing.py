@@ -27,7 +27,10 @@ if TYPE_CHECKING:
     from parts.scene.train import Train
 
 # mates whose second has no axle of its own on the frame, or moves with another instance
-_CARRYING = ("fixed", "carried", "pin_seat", "eccentric_bearing", "cam_follower", "linkage_member", "wedge_follower")
+_CARRYING = (
+    "fixed", "carried", "pin_seat", "eccentric_bearing", "cam_follower", "linkage_member", "lever_member",
+    "wedge_follower",
+)  # fmt: skip
 # between things that no mate and no ``at`` places, mm; parts of an axis that are none
 _GAP, _STRAIGHT = 5.0, 1e-12
 # between axes that are to be one direction, rad

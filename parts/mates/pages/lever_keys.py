@@ -1,26 +1,17 @@
-"""The keys of ``higherpair calc lever``, and the mechanism that they are."""
+"""The keys of ``higherpair calc lever``."""
 
 from __future__ import annotations
 
-import cmath
-import math
 from typing import Annotated, Literal
 
-from msgspec import Meta, Struct
+from msgspec import Meta
 
-from geometry.base.errors import ParameterError
-from geometry.kinematics.levers import Levers, Rods, Slider, Stone
-from parts.base.refusal import REMOVED
-from parts.base.schema import described_key
 from parts.keys.base import degrees, mm, size
+from parts.keys.levers import MOST, Assignment, Code, MechanismTable, Variant
 from parts.keys.sheet import PaperName
 from parts.keys.title import TitleBlockKey
 from parts.mates.pages.lever_picture import LARGE_ROOM, ROOM
 
-_MOST = 1e5
-_CODE = "last four digits of a record-book number: chooses assignment and rows"
-_BESIDE = "how far the guide passes to the left of O3, of O1 where there is no lever"
-_SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
 _MASS = "AS2 / AB: centre of mass, or any point, of the rod AB: its velocity, acceleration, and its path in the picture"
 
 _MASSES = "substitute masses of the links at A, B, C, D: point_masses.D=12; A is of the crank, B and C of link 3"
@@ -49,46 +40,22 @@ _MEASURED = (
 _Mass = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg"})]
 _Inertia = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg*m2"})]
 _OnPaper = Annotated[float, Meta(ge=0, le=10_000, extra={"unit": "mm"})]
-_Place = Annotated[float, Meta(ge=-_MOST, le=_MOST, extra={"unit": "mm"})]
+_Place = Annotated[float, Meta(ge=-MOST, le=MOST, extra={"unit": "mm"})]
 
 
-def _length(text: str) -> Meta:
-    """A key of a link's length."""
-    return mm(text, above=0, most=_MOST)
-
-
-_FIRST = Meta(description="what A joins: stone in a lever, rod and rocker, slider")
-_FIRST_SIDE = Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
 _DRIVE_ANGLE = degrees("direction from O1 to the axis of the wheel that drives it", least=-360, most=360)
 
 
-class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
+class LeverKeys(MechanismTable, kw_only=True, forbid_unknown_fields=True):
     """Keys of the topic; those of an assignment stand for what is not given."""
 
-    code: Annotated[int | str, Meta(description=_CODE)] | None = None
-    assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
-    variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
-    first: Annotated[Literal["stone", "rods", "slider"], _FIRST] = "stone"
-    second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
-    crank_length: Annotated[float, _length("crank O1A")] | None = None
+    code: Code = None
+    assignment: Assignment = None
+    variant: Variant = None
     start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
     speed: Annotated[float, size("rad/s", "angular velocity of the crank", above=0, most=1e6)] = 1.0
     speed_rpm: Annotated[float, size("rpm", "the same in place of speed", above=0, most=1e7)] | None = None
     acceleration: Annotated[float, size("rad/s2", "angular acceleration of the crank", least=-1e9, most=1e9)] = 0.0
-    frame_length: Annotated[float, _length("frame O1O3")] | None = None
-    frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
-    coupler_length: Annotated[float, _length("rod AB")] | None = None
-    lever_length: Annotated[float, _length("lever O3B")] | None = None
-    first_side: Annotated[Literal[1, -1], _FIRST_SIDE] = 1
-    arm_length: Annotated[float, _length("arm O3C of the lever, for CD; default: as long as O3B")] | None = None
-    arm_angle_deg: Annotated[float, degrees("direction of O3C against the lever", least=-360, most=360)] = 0.0
-    rod_length: Annotated[float, _length("second rod CD")] | None = None
-    rocker_length: Annotated[float, _length("rocker O5D")] | None = None
-    pivot_distance: Annotated[float, _length("distance O3O5")] | None = None
-    pivot_angle_deg: Annotated[float, degrees("direction from O3 to O5", least=-360, most=360)] = 0.0
-    guide_height: Annotated[float, mm(_BESIDE, least=-_MOST, most=_MOST)] = 0.0
-    guide_angle_deg: Annotated[float, degrees("direction of the guide", least=-360, most=360)] = 0.0
-    second_side: Annotated[Literal[1, -1], Meta(description=_SIDE)] = 1
     mass_point: Annotated[float, Meta(ge=0, le=1, description=_MASS)] | None = None
     point_masses: Annotated[dict[str, _Mass], Meta(description=_MASSES)] | None = None
     masses: Annotated[dict[str, _Mass], Meta(description=_LINK_MASSES)] | None = None
@@ -100,7 +67,7 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     resistance: Annotated[float, size("N", _FORCE, above=0, most=1e9)] | None = None
     resisting_moment: Annotated[float, size("N*m", _MOMENT, above=0, most=1e9)] | None = None
     resisted: Annotated[Literal["forward", "backward", "both"], Meta(description=_WAYS)] = "both"
-    drive_radius: Annotated[float, mm(_TOOTHED, above=0, most=_MOST)] | None = None
+    drive_radius: Annotated[float, mm(_TOOTHED, above=0, most=MOST)] | None = None
     drive_pressure_angle_deg: Annotated[float, degrees("working pressure angle of that wheel", least=0, most=60)] = 20.0
     drive_angle_deg: Annotated[float, _DRIVE_ANGLE] = -90.0
     unevenness: Annotated[float, Meta(gt=0, le=0.5, description="delta: gives the flywheel")] | None = None
@@ -120,45 +87,3 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
 def room_of(keys: LeverKeys) -> float:
     """Room of the longest vector of a plan, mm."""
     return LARGE_ROOM if keys.sheet is not None and keys.paper in (None, "A1", "A0") else ROOM
-
-
-def levers_of(keys: LeverKeys) -> Levers:
-    """The mechanism of the keys.
-
-    Raises
-    ------
-    ParameterError
-        A length that the mechanism needs is missing.
-    """
-
-    def needed(name: str) -> float:
-        value = getattr(keys, name)
-        if value is None:
-            raise ParameterError(name, None, "missing_key", None, what=described_key(LeverKeys, name))
-        return float(value)
-
-    crank = needed("crank_length")
-    guide = math.radians(keys.guide_angle_deg)
-    across = keys.guide_height * 1j * cmath.exp(1j * guide)
-    if keys.first == "slider":
-        if keys.second != "none":
-            raise ParameterError("second", keys.second, "lever_needed", REMOVED)
-        rod = Slider(needed("coupler_length"), across, guide, keys.second_side)
-        return Levers(crank, keys.speed, rod, change=keys.acceleration)
-    pivot = cmath.rect(needed("frame_length"), math.radians(keys.frame_angle_deg))
-    lever = needed("lever_length")
-    first: Stone | Rods = Stone(pivot)
-    if keys.first == "rods":
-        first = Rods(pivot, needed("coupler_length"), lever, keys.first_side)
-    if keys.second == "none":
-        return Levers(crank, keys.speed, first, lever, change=keys.acceleration)
-    arm = cmath.rect(keys.arm_length or lever, math.radians(keys.arm_angle_deg))
-    second: Slider | Rods = Slider(needed("rod_length"), pivot + across, guide, keys.second_side)
-    if keys.second == "rocker":
-        other = pivot + cmath.rect(needed("pivot_distance"), math.radians(keys.pivot_angle_deg))
-        second = Rods(other, needed("rod_length"), needed("rocker_length"), keys.second_side)
-    return Levers(crank, keys.speed, first, lever, arm, second, keys.acceleration)
-
-
-# geometry names the parts of a mechanism, users its lengths
-NAMES = {"first.rod": "coupler_length", "first.pivot": "frame_length", "second.rod": "rod_length"}

@@ -10,6 +10,7 @@ from functools import cache
 
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.psv import rows_of
+from parts.base.refusal import REMOVED
 
 MACHINES: dict[int, str] = {}
 # what the assumed schemes have beside the columns: where O3 lies as seen from O1, how the links join
@@ -19,7 +20,12 @@ for _number, _machine, _first, _second, *_angles in rows_of(__file__, "lever_sch
     _told = zip(("frame_angle_deg", "arm_angle_deg"), _angles, strict=True)
     _SCHEMES[int(_number)] = {"first": _first, "second": _second} | {key: float(angle) for key, angle in _told if angle}
 # plans of the worked example: record-book number 10-71, drawn crank 30 mm, 0.1 (m/s)/mm, 3 (m/s2)/mm
-EXAMPLE = {"code": "1071", "drawn_crank": 30.0, "velocity_scale": 0.1, "acceleration_scale": 3.0}
+EXAMPLE: dict[str, float | str] = {
+    "code": "1071",
+    "drawn_crank": 30.0,
+    "velocity_scale": 0.1,
+    "acceleration_scale": 3.0,
+}
 
 
 @cache
@@ -42,6 +48,29 @@ def rows_of_code(code: str) -> tuple[int, tuple[int, int, int]]:
         raise ParameterError("code", code, "not_four_digits")
     first, second, third, last = (int(d) or 10 for d in digits)
     return last, (first, second, third)
+
+
+def chosen(
+    code: int | str | None, assignment: int | None, variant: int | None
+) -> tuple[dict[str, float | str], int | None]:
+    """The keys that a code, or an assignment and its row, stand for, and the number of the assignment.
+
+    Raises
+    ------
+    ParameterError
+        Both are given, or a row of none, or there is no such one.
+    """
+    if code is not None:
+        for name, value in (("assignment", assignment), ("variant", variant)):
+            if value is not None:
+                raise ParameterError(name, value, "other_is_given", REMOVED, other="code")
+        number, rows = rows_of_code(str(code))
+        return assigned(number, rows), number
+    if assignment is None:
+        if variant is not None:
+            raise ParameterError("variant", variant, "needs_other", REMOVED, other="assignment")
+        return {}, None
+    return assigned(assignment, (1 if variant is None else variant,) * 3), assignment
 
 
 def assigned(assignment: int, variants: tuple[int, int, int]) -> dict[str, float | str]:

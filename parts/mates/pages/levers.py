@@ -20,14 +20,16 @@ from geometry.kinematics.kinetostatics import by_zhukovsky, frames, reduced_iner
 from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, closed, ranges, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
+from parts.bodies.lever_crank import LeverCrankSpec
 from parts.keys.base import either
+from parts.keys.levers import NAMES, MechanismTable, levers_of, told, unused
 from parts.keys.title import TitleBlockTable
 from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.lever_forces import ForcePage, Forces, LeverForce, Turn, asked, weighs
-from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of, room_of
+from parts.mates.pages.lever_keys import LeverKeys, room_of
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
-from parts.mates.pages.lever_tasks import EXAMPLE, MACHINES, assigned, rows_of_code
-from parts.pages.inputs import checked, refusal
+from parts.mates.pages.lever_tasks import EXAMPLE, MACHINES, chosen
+from parts.pages.inputs import SceneKeys, checked, chosen_part, refusal
 from parts.pages.misprints import printed_for
 from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
@@ -62,9 +64,10 @@ def sheet(table: dict[str, Any]) -> Sheet:
     checked_picture(TOPIC, keys.picture, (".svg",))
     checked_picture(TOPIC, keys.sheet, (".dxf", ".svg", ".pdf"), "sheet")
     try:
-        chosen, number = _chosen(keys, table)
+        given, number = chosen(keys.code, keys.assignment, keys.variant)
         if number is not None:
-            keys = checked(chosen | {k: v for k, v in table.items() if k not in _CHOICE}, LeverKeys, TOPIC)
+            given |= {k: v for k, v in EXAMPLE.items() if k != "code"} if _is_example(table) else {}
+            keys = checked(given | {k: v for k, v in table.items() if k not in _CHOICE}, LeverKeys, TOPIC)
         _refuse_idle(keys, table)
         if keys.speed_rpm is not None:
             if "speed" in table:
@@ -75,38 +78,25 @@ def sheet(table: dict[str, Any]) -> Sheet:
         raise refusal(TOPIC, error, keys=keys) from error
 
 
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The mechanism of a scene's one lever crank, or of the one that ``part`` names, turned as it is placed."""
+    cranks = {key: spec for key, spec in scene.parts.items() if isinstance(spec, LeverCrankSpec)}
+    part = chosen_part("lever_crank", [*cranks], [*cranks], source, table)
+    instances = {key: spec for key, spec in scene.instances.items() if spec.part == part}
+    placed = [*instances.values(), *(mate for mate in scene.mates if getattr(mate, "second", None) in instances)]
+    turn = next((found for one in placed if (found := getattr(one, "rotation_deg", None))), 0.0)
+    return told(cranks[part].mechanism) | {"start_angle_deg": turn} | table
+
+
 def _is_example(table: Mapping[str, Any]) -> bool:
     digits = "".join(filter(str.isdigit, str(table.get("code", ""))))
     return digits == EXAMPLE["code"] and set(table) <= {"code", "picture", "positions", "measured", *_OF_SHEET}
 
 
-def _chosen(keys: LeverKeys, table: Mapping[str, Any]) -> tuple[dict[str, Any], int | None]:
-    """The keys of an assignment, and its number."""
-    if keys.code is not None:
-        for name in ("assignment", "variant"):
-            if table.get(name) is not None:
-                raise ParameterError(name, table[name], "other_is_given", REMOVED, other="code")
-        number, rows = rows_of_code(str(keys.code))
-        example = {k: v for k, v in EXAMPLE.items() if k != "code"} if _is_example(table) else {}
-        return {**assigned(number, rows), **example}, number
-    if keys.assignment is None:
-        if keys.variant is not None:
-            raise ParameterError("variant", keys.variant, "needs_other", REMOVED, other="assignment")
-        return {}, None
-    return {**assigned(keys.assignment, (1 if keys.variant is None else keys.variant,) * 3)}, keys.assignment
-
-
 def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
     """Refuse keys that a user gave and that no link of the mechanism takes."""
-    slides = "slider" in (keys.first, keys.second)
     taken = {
-        "frame_length": keys.first != "slider", "frame_angle_deg": keys.first != "slider",
-        "lever_length": keys.first != "slider", "coupler_length": keys.first != "stone",
-        "mass_point": keys.first != "stone", "first_side": keys.first == "rods",
-        "arm_length": keys.second != "none", "arm_angle_deg": keys.second != "none",
-        "rod_length": keys.second != "none", "second_side": keys.second != "none" or keys.first == "slider",
-        "rocker_length": keys.second == "rocker", "pivot_distance": keys.second == "rocker",
-        "pivot_angle_deg": keys.second == "rocker", "guide_height": slides, "guide_angle_deg": slides,
+        "mass_point": keys.first != "stone",
         "resisted": keys.resistance is not None or keys.resisting_moment is not None,
         "gravity": weighs(keys), "gravity_angle_deg": weighs(keys) and keys.gravity > 0, "force_scale": asked(keys),
         "drive_radius": asked(keys), "centres": asked(keys), "centre_offsets": asked(keys),
@@ -120,9 +110,13 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
         raise ParameterError(
             "second_position", keys.second_position, "no_such_position", works, last=keys.positions - 1
         )
-    for name, used in taken.items():
-        if name in table and not used:
+    for name in [*MechanismTable.__struct_fields__, *taken]:
+        if name in table and (name in unused(keys) or not taken.get(name, True)):
             raise ParameterError(name, table[name], "of_no_link", REMOVED)
+
+
+def _levers(keys: LeverKeys) -> Levers:
+    return levers_of(keys, keys.speed, keys.acceleration)
 
 
 def _metres(vector: complex | np.ndarray) -> float:
@@ -144,7 +138,7 @@ class _Page:
 
     def __init__(self, keys: LeverKeys, number: int | None, *, is_example: bool) -> None:
         self.keys, self.number = keys, number
-        self.levers = levers_of(keys)
+        self.levers = _levers(keys)
         self.is_example = is_example
         printed = printed_for("lever example") if is_example else {}
         self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture, printed=printed)
@@ -182,7 +176,7 @@ class _Page:
         if not about:
 
             def moves(length: float) -> bool:
-                levers = levers_of(changed(keys, **{hindered.name: length}))
+                levers = _levers(changed(keys, **{hindered.name: length}))
                 try:
                     closed(levers)
                 except ParameterError:

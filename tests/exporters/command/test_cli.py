@@ -64,7 +64,7 @@ DAILY = {
     "guidelines_cam": "svg", "helical_gears": "stl", "helical_pair": "3mf", "idler_train": "3mf",
     "contour_cams": "dxf", "geneva_drive": "dxf", "chain_drive": "dxf", "belt_drive": "stl", "spline_joint": "3mf",
     "lantern_pair": "step", "laser_cam_model": "dxf", "laser_gear": "dxf", "laser_gear_set": "svg",
-    "linkage_cam": "svg", "practicum_flat_cam": "stl", "practicum_pair": "dxf",
+    "linkage_cam": "svg", "six_link_model": "dxf", "practicum_flat_cam": "stl", "practicum_pair": "dxf",
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
     "james": "motion", "james_laser": "svg", "james_print": "glb", "compound_two_stage": "3mf",

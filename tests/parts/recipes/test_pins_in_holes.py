@@ -33,7 +33,7 @@ FREE = {
     "lesson_5": ["axle ends at 9", "roller_pin ends at 1"], "james_laser": ["handle ends at 38"],
 }  # fmt: skip
 SCENES = ("power_table_laser", "power_table_print", "compound_two_stage", "ferguson", "lesson_2", "lesson_4",
-          "lesson_5", "david", "practicum_example_1", "james", "james_laser")  # fmt: skip
+          "lesson_5", "six_link_model", "david", "practicum_example_1", "james", "james_laser")  # fmt: skip
 
 
 class Stands(Record):

@@ -1,0 +1,444 @@
+"""The assembly ``lever_model``: a plane lever mechanism out of flat links and dowels, to be cut and turned by hand.
+
+From the back, in boards: frame; crank; over it the rod, or at once the lever in whose slot the crank's pin runs; the
+lever; the second rod; its rocker. Each link lies on the one before it, at its own axle on spacers as high. The pins
+are glued into one of both links and turn in the other; those of sliders go down to slots of the frame, in washers.
+Links of one layer are held apart all the way round.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+from itertools import combinations
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+from msgspec import Meta, convert, field
+
+from geometry.base.errors import LateError, ParameterError
+from geometry.base.nearest import nearest
+from geometry.base.record import Draft, Record
+from parts.base.part_keys import Density, Material
+from parts.base.schema import tried, value_at
+from parts.keys.base import degrees, mm, start
+from parts.keys.levers import (
+    MECHANISM,
+    Assignment,
+    Code,
+    MechanismTable,
+    Variant,
+    levers_of,
+    scaled,
+    told,
+    turning_levers,
+)
+from parts.mates.pages.lever_tasks import chosen
+from parts.recipes.making import WAYS, Making, hole, place
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
+
+if TYPE_CHECKING:
+    from geometry.curves.curve import Complex, Real
+    from geometry.kinematics.levers import Slider
+
+# mm: walls about and between holes; between what moves in one layer; of slots beyond the way of a pin; how much shorter
+# dowels are than what they go through; of the frame about its axles and slots; its corners; rings about dowels
+_WALL, _APART, _SLACK, _SHORT, _BESIDE, _CORNER, _RING = 2.0, 1.0, 1.0, 0.5, 10.0, 6.0, 3.0
+# mm within which joints are one
+_SAME = 1e-9
+# positions of the crank in which links of a layer are held apart
+_SAMPLES = 720
+# of what is given, tried where links meet, nearest first: of widths, of lengths
+_NARROWER, _LONGER = (0.9, 0.75, 0.6, 0.45, 0.3), (1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 4.0, 0.95, 0.9, 0.75)
+_CRANK_ROCKER = {
+    "first": "rods", "crank_length": 25.0, "frame_length": 80.0, "coupler_length": 70.0, "lever_length": 50.0,
+}  # fmt: skip
+_CRANK_ANGLE = degrees("where the model is drawn; default: of the assignment, or 0", least=-360, most=360, example=60.0)
+_CLEARANCE = mm("of slots and holes on the dowels that run in them", least=0, most=5)
+
+
+class LeverModelKeys(RecipeKeys, kw_only=True, tag="lever_model"):
+    """Keys of ``lever_model``."""
+
+    mechanism: Annotated[MechanismTable, MECHANISM, start(_CRANK_ROCKER)] = field(default_factory=MechanismTable)
+    code: Code = None
+    assignment: Assignment = None
+    variant: Variant = None
+    scale: Annotated[float, Meta(ge=0.001, le=10_000, description="lengths of the mechanism over the model's")] = 1.0
+    crank_angle_deg: Annotated[float, _CRANK_ANGLE] | None = None
+    turns: Annotated[Turns, Meta(description="of the crank")] = 1.0
+    link_width: Annotated[float, mm("of all links, their ends are round", above=0, most=1000)] = 12.0
+    plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
+    clearance: Annotated[float, _CLEARANCE] = 0.3
+    axle_diameter: Annotated[float, mm("of the dowels in the frame on which links turn", least=0.5, most=200)] = 6.0
+    pin_diameter: Annotated[float, mm("of the dowels that join links", least=0.5, most=200)] = 4.0
+    material: Material | None = None
+    density: Density | None = None
+
+
+class _Link(Draft):
+    """A link in its own frame, mm: ``ends`` of its axis, holes (place, diameter, the key of its place), a slot."""
+
+    member: str
+    number: str
+    layer: int
+    label: str
+    ends: list[complex]
+    holes: list[tuple[complex, float, str]]
+    slot: tuple[float, float] | None = None
+
+
+class _Dowel(Record):
+    """A dowel glued into a link (``0``: the frame) at a place of it, from below a layer to above another one.
+
+    ``key``: of the length that has put it there; ``rings``: whether rings lie about it below its upper layer.
+    """
+
+    name: str
+    link: str
+    at: complex
+    layers: tuple[int, int]
+    key: str
+    rings: str = ""
+
+
+class _Solid(Record):
+    """What fills a layer: a link, or rings about a dowel; by the number of the link on which it stands."""
+
+    name: str
+    number: str
+    layers: range
+    ends: Sequence[complex]
+    radius: float
+    key: str = ""
+
+
+class _Making(Making):
+    """A model that grows: links and dowels, held against each other."""
+
+    def __init__(self, keys: LeverModelKeys) -> None:
+        super().__init__("lever_model", keys.plate_thickness, keys)
+        self.keys = keys
+        given, _ = chosen(keys.code, keys.assignment, keys.variant)
+        own = {key: value for key, value in given.items() if key in MechanismTable.__struct_fields__}
+        self.machine = convert(own | told(keys.mechanism), MechanismTable)
+        turning_levers(self.machine, "mechanism")
+        self.mechanism = scaled(self.machine, keys.scale)
+        self.levers = levers_of(self.mechanism)
+        self.start = given.get("start_angle_deg", 0.0) if keys.crank_angle_deg is None else keys.crank_angle_deg
+        self.pin_size, self.axle_size = keys.pin_diameter, keys.axle_diameter
+        self.links: dict[str, _Link] = {}
+        self.dowels: list[_Dowel] = []
+        # rings by name, with the link on whose dowel they lie, and their layer
+        self.rings: list[tuple[str, str, int]] = []
+        self.guides: list[tuple[complex, complex, str]] = []
+        self._first()
+        self._second()
+        self._check_walls()
+        self._check_room()
+
+    def _link(self, name: str, member: str, number: str, layer: int, label: str, *ends: complex) -> _Link:
+        link = _Link(member, number, layer, label, [0j, *ends], [])
+        self.links[name] = link
+        return link
+
+    def _turning(self, link: _Link, pivot: complex, number: int, key: str) -> None:
+        """A link on an axle of its own."""
+        link.holes.append((0j, self.axle_size + self.keys.clearance, key))
+        self.dowels.append(_Dowel(f"axle_{number}", "0", pivot, (0, link.layer), key, "spacer"))
+
+    def _joint(self, name: str, link: str, at: complex, layers: tuple[int, int], key: str, rings: str = "") -> None:
+        """A pin glued into a link."""
+        self.links[link].holes.append((at, self.pin_size, key))
+        self.dowels.append(_Dowel(f"pin_{name}", link, at, layers, key, rings))
+
+    def _slider(self, name: str, link: str, at: complex, layer: int, key: str, guide: Slider) -> None:
+        """A pin that runs in a slot of the frame, and that slot."""
+        from geometry.kinematics.levers import travel
+
+        self._joint(name, link, at, (0, layer), key, "washer")
+        found, way = travel(self.levers, "slider"), cmath.exp(1j * guide.angle)
+        ends = [guide.on + reach * way for reach in (found.least - _SLACK, found.greatest + _SLACK)]
+        self.guides.append((ends[0], ends[1], key))
+
+    def _first(self) -> None:
+        """The crank, and what its pin joins."""
+        from geometry.kinematics.levers import Rods, Slider
+
+        levers, first, loose = self.levers, self.levers.first, self.pin_size + self.keys.clearance
+        crank = self._link("crank", "", "1", 1, f"O1A {levers.crank:.6g}", levers.crank)
+        self._turning(crank, 0j, 1, "mechanism.crank_length")
+        self._joint("a", "crank", levers.crank, (1, 2), "mechanism.crank_length")
+        if isinstance(first, Rods | Slider):
+            rod = self._link("rod", "rod", "2", 2, f"AB {first.rod:.6g}", first.rod)
+            rod.holes.append((0j, loose, "mechanism.coupler_length"))
+        if isinstance(first, Slider):
+            self._slider("b", "rod", first.rod, 2, "mechanism.coupler_length", first)
+        elif isinstance(first, Rods):
+            self._joint("b", "rod", first.rod, (2, 3), "mechanism.coupler_length")
+            lever = self._link("rocker", "lever", "3", 3, f"O3B {levers.lever:.6g}", levers.lever)
+            self._turning(lever, first.pivot, 3, "mechanism.frame_length")
+            lever.holes.append((levers.lever, loose, "mechanism.lever_length"))
+        else:
+            far = abs(first.pivot)
+            near, most = abs(far - levers.crank) - _SLACK, far + levers.crank + _SLACK
+            lever = self._link("slotted_lever", "lever", "3", 2, f"O3B {levers.lever:.6g}", max(most, levers.lever))
+            self._turning(lever, first.pivot, 3, "mechanism.frame_length")
+            lever.slot = near, most
+
+    def _second(self) -> None:
+        """The second rod, which hangs on the lever, and what it moves."""
+        from geometry.kinematics.levers import Rods
+
+        levers, second = self.levers, self.levers.second
+        if second is None:
+            return
+        (name, lever), loose = [*self.links.items()][-1], self.pin_size + self.keys.clearance
+        top = lever.layer + 1
+        given = "lever_length" if self.mechanism.arm_length is None else "arm_length"
+        if lever.slot is None and abs(levers.arm - levers.lever) < _SAME:
+            # one pin through both rods and the lever between
+            joint = self.dowels[-2]
+            self.dowels[-2] = _Dowel(joint.name, joint.link, joint.at, (2, top), joint.key)
+        else:
+            lever.ends.append(levers.arm)
+            lever.label += f" O3C {abs(levers.arm):.6g}"
+            self._joint("c", name, levers.arm, (lever.layer, top), f"mechanism.{given}")
+        rod = self._link("second_rod", "second_rod", "4", top, f"CD {second.rod:.6g}", second.rod)
+        rod.holes.append((0j, loose, "mechanism.rod_length"))
+        if isinstance(second, Rods):
+            self._joint("d", "second_rod", second.rod, (top, top + 1), "mechanism.rod_length")
+            label = f"O5D {second.rocker:.6g}"
+            rocker = self._link("second_rocker", "second_rocker", "5", top + 1, label, second.rocker)
+            self._turning(rocker, second.pivot, 5, "mechanism.pivot_distance")
+            rocker.holes.append((second.rocker, loose, "mechanism.rocker_length"))
+        else:
+            self._slider("d", "second_rod", second.rod, top, "mechanism.rod_length", second)
+
+    def _refused(self, code: str, names: Sequence[str], **numbers: object) -> ParameterError:
+        """A refusal by the first of some keys that can cure it, sought when somebody asks."""
+
+        def works(name: str, value: float) -> bool:
+            _Making(tried(self.keys, name, value))
+            return True
+
+        def sought() -> ParameterError:
+            found = []
+            for name in dict.fromkeys(names):
+                given = value_at(self.keys, name)
+                if given is None:
+                    # of the assignment
+                    given = getattr(self.machine, name.rpartition(".")[2])
+                shares = _NARROWER if name == "link_width" else _LONGER
+                cure = nearest(partial(works, name), given, [given * share for share in shares])
+                found.append(ParameterError(name, given, code, cure, **numbers))
+            return next((one for one in found if one.nearest is not None), found[0])
+
+        return LateError(code, sought)
+
+    def _check_walls(self) -> None:
+        """Walls about all holes, and between those of a link."""
+        widest = max(self.pin_size, self.axle_size) + self.keys.clearance
+        if self.keys.link_width < (least := widest + 2 * _WALL):
+            raise ParameterError.beyond("link_width", self.keys.link_width, "no_wall_beside_holes", least)
+        for link in self.links.values():
+            for (one, wide, _), (other, hole_there, key) in combinations(sorted(link.holes, key=_from_pivot), 2):
+                if abs(one - other) < (wide + hole_there) / 2 + _WALL:
+                    raise self._refused("no_wall_between_holes", [key])
+            if link.slot is None:
+                continue
+            for at, wide, key in link.holes:
+                apart = _to_way(np.array(at), (np.array(link.slot[0]), np.array(link.slot[1])))
+                if apart < (wide + self.pin_size + self.keys.clearance) / 2 + _WALL:
+                    raise self._refused("no_wall_between_holes", [key])
+        for first, last, key in self.guides:
+            for dowel in (one for one in self.dowels if one.link == "0"):
+                apart = _to_way(np.array(dowel.at), (np.array(first), np.array(last)))
+                if apart < (self.axle_size + self.pin_size + self.keys.clearance) / 2 + _WALL:
+                    raise self._refused("slot_meets_axle", [key], axle=dowel.name)
+
+    def _solids(self) -> Iterator[_Solid]:
+        """All that moves or stands above the frame, layer by layer."""
+        for name, link in self.links.items():
+            yield _Solid(name, link.number, range(link.layer, link.layer + 1), link.ends, self.keys.link_width / 2)
+        for dowel in self.dowels:
+            if dowel.rings:
+                number = "0" if dowel.link == "0" else self.links[dowel.link].number
+                layers = range(1, dowel.layers[1])
+                yield _Solid(dowel.rings, number, layers, [dowel.at], self._ring(dowel) / 2, dowel.key)
+
+    def _ring(self, dowel: _Dowel) -> float:
+        """Diameter of the rings about a dowel, mm."""
+        return self._size(dowel) + 2 * _RING
+
+    def _size(self, dowel: _Dowel) -> float:
+        """Its diameter, mm."""
+        return self.axle_size if dowel.link == "0" else self.pin_size
+
+    def _check_room(self) -> None:
+        """Nothing meets in a layer, wherever the crank stands."""
+        from geometry.kinematics.kinetostatics import frames
+
+        turn = 2 * math.pi * np.arange(_SAMPLES) / _SAMPLES
+        moving = {key: (one.origin[0], one.way[0]) for key, one in frames(self.levers, self.levers.moved(turn)).items()}
+        moving["0"] = np.zeros(_SAMPLES, complex), np.ones(_SAMPLES, complex)
+        for one, other in combinations(self._solids(), 2):
+            if not range(max(one.layers.start, other.layers.start), min(one.layers.stop, other.layers.stop)):
+                continue
+            places = [[moving[solid.number][0] + end * moving[solid.number][1] for end in solid.ends]
+                      for solid in (one, other)]  # fmt: skip
+            apart = float(_between(*places).min()) - one.radius - other.radius
+            if apart < _APART:
+                names = [key for key in (other.key, one.key) if key]
+                raise self._refused("links_meet", [*names, "link_width"], one=one.name, other=other.name, least=_APART)
+
+    def all(self) -> Expansion:
+        """Every part, as it stands on what is made before, and the turn of the crank."""
+        keys, thick = self.keys, self.thickness
+        self._frame()
+        for name, link in self.links.items():
+            self._flat(name, link)
+        for ring, size in (("spacer", self.axle_size), ("washer", self.pin_size)):
+            if any(dowel.rings == ring and dowel.layers[1] > 1 for dowel in self.dowels):
+                self.plate(ring, size + 2 * _RING, [hole(0j, size + keys.clearance)], label=False)
+        for dowel in self.dowels:
+            low, high = dowel.layers
+            self.pin(dowel.name, self._size(dowel), round((high - low + 1) * thick - _SHORT, 6))
+        # what stands in the frame comes first: drawings cut through its axles
+        self._stand_all("spacer", [dowel for dowel in self.dowels if dowel.link == "0"])
+        self.put("coaxial", "frame", "crank", height=thick, rotation_deg=self.start)
+        for name, link in [*self.links.items()][1:]:
+            self.put("lever_member", "crank", name, member=link.member, height=(link.layer - 1) * thick)
+        self._stand_all("washer", [dowel for dowel in self.dowels if dowel.link != "0"])
+        self._order()
+        self.drive(keys, crank="turns")
+        self.name_all()
+        return self.found
+
+    def _stand_all(self, ring: str, dowels: Sequence[_Dowel]) -> None:
+        """Dowels in what holds them, and rings about them below their upper layer."""
+        for dowel in dowels:
+            self._stand(dowel, dowel.name, dowel.layers[0])
+        rings = [(one, layer) for one in dowels if one.rings for layer in range(1, one.layers[1])]
+        for k, (dowel, layer) in enumerate(rings, 1):
+            self._stand(dowel, f"{ring}_{k}", layer, ring)
+            self.rings.append((f"{ring}_{k}", dowel.link, layer))
+
+    def _order(self) -> None:
+        """The order of assembly: each link with its pins and their rings, layer by layer down to the frame."""
+
+        def step(name: str, to: str, way: str) -> None:
+            self.found.steps.append({"bring": [name], "to": to, "along": list(WAYS[way])})
+
+        for dowel in (one for one in self.dowels if one.link == "0"):
+            step(dowel.name, "frame", "front")
+        for name, link in self.links.items():
+            for dowel in (one for one in self.dowels if one.link == name):
+                step(dowel.name, name, "front")
+            for ring, on, _ in reversed(self.rings):
+                if on == name:
+                    step(ring, name, "behind")
+            for ring, on, layer in self.rings:
+                if on == "0" and layer == link.layer:
+                    step(ring, "frame", "front")
+            step(name, "frame", "front")
+
+    def _stand(self, dowel: _Dowel, name: str, layer: int, part: str = "") -> None:
+        """Fix a dowel, or a ring about it, with its lower face in a layer, 0 that of the frame."""
+        if dowel.link == "0":
+            self.fix("frame", name, dowel.at, layer * self.thickness, part)
+        else:
+            self.fix(dowel.link, name, dowel.at, (layer - self.links[dowel.link].layer) * self.thickness, part)
+
+    def _frame(self) -> None:
+        """A rectangle about all axles and slots."""
+        wide = self.pin_size + self.keys.clearance
+        axles = [dowel.at for dowel in self.dowels if dowel.link == "0"]
+        about = [(at, self.axle_size / 2) for at in axles]
+        about += [(end, wide / 2) for first, last, _ in self.guides for end in (first, last)]
+        reach = [(at.real + sign * (half + _BESIDE), at.imag + sign * (half + _BESIDE)) for at, half in about
+                 for sign in (-1, 1)]  # fmt: skip
+        (left, right), (low, high) = ((math.floor(min(xs)), math.ceil(max(xs))) for xs in zip(*reach, strict=True))
+        slots = [
+            {"start": place(first, 0.0)[:2], "end": place(last, 0.0)[:2], "width": wide}
+            for first, last, _ in self.guides
+        ]
+        self.part(
+            "frame", kind="plate", face_width=self.thickness, width=float(right - left), height=float(high - low),
+            centre=[(left + right) / 2, (low + high) / 2], corner_radius=_CORNER,
+            holes=[hole(at, self.axle_size) for at in axles], slots=slots,
+        )  # fmt: skip
+        self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -self.thickness], "held": True}
+
+    def _flat(self, name: str, link: _Link) -> None:
+        """A link as a flat part: the crank, an arm, or the hull of round ends."""
+        keys, width = self.keys, self.keys.link_width
+        holes = [(at, diameter) for at, diameter, _ in link.holes]
+        slots = [{"start": [near, 0.0], "end": [far, 0.0], "width": self.pin_size + keys.clearance}
+                 for near, far in ([link.slot] if link.slot else ())]  # fmt: skip
+        if name == "crank":
+            self.part(
+                name, kind="lever_crank", mechanism=told(self.mechanism), width=width, boss_diameter=width,
+                face_width=self.thickness, pivot_diameter=holes[0][1], pin_diameter=holes[1][1], label=link.label,
+            )  # fmt: skip
+        elif len(corners := _hull(link.ends)) == 2 and corners[0] == 0 and corners[1].imag == 0 < corners[1].real:
+            more = [hole(at, diameter) for at, diameter in holes[1:] if at != corners[1]]
+            at_end = next((diameter for at, diameter in holes if at == corners[1]), 0.0)
+            self.part(
+                name, kind="follower_arm", end="roller", arm_length=corners[1].real, boss_diameter=width, width=width,
+                pivot_diameter=holes[0][1], pin_diameter=at_end, face_width=self.thickness, label=link.label,
+                holes=more, slots=slots,
+            )  # fmt: skip
+        else:
+            circles = [{"at": [at.real, at.imag], "diameter": diameter} for at, diameter in holes]
+            layer = {"thickness": self.thickness, "outlines": [{"points": _rounded(corners, width / 2)}],
+                     "circles": circles, "slots": slots}  # fmt: skip
+            self.part(name, kind="layered", layers=[layer], label=link.label)
+
+
+def _from_pivot(one: tuple[complex, float, str]) -> float:
+    return abs(one[0])
+
+
+def _hull(places: Sequence[complex]) -> list[complex]:
+    """The corners of the hull of up to three places, counter-clockwise; of two where all lie on a line."""
+    if len(places) == 3:
+        one, two, three = places
+        area = ((two - one).conjugate() * (three - one)).imag
+        if abs(area) > _SAME * max(abs(two - one), abs(three - one)) ** 2:
+            return [one, two, three] if area > 0 else [one, three, two]
+    return [*max(combinations(places, 2), key=lambda pair: abs(pair[1] - pair[0]))]
+
+
+def _rounded(corners: Sequence[complex], radius: float) -> list[Table]:
+    """The outline of the hull of circles about corners, counter-clockwise, as ``layered`` has it."""
+    points: list[Table] = []
+    for one, two in zip(corners, [*corners[1:], corners[0]], strict=True):
+        out = radius * -1j * (two - one) / abs(two - one)
+        points += [{"x": (one + out).real, "y": (one + out).imag},
+                   {"x": (two + out).real, "y": (two + out).imag, "arc": radius}]  # fmt: skip
+    return points
+
+
+def _to_way(at: Complex, way: tuple[Complex, Complex]) -> Real:
+    """How far places are from straight ways, mm."""
+    start, along = way[0], way[1] - way[0]
+    share = np.clip(np.real((at - start) * np.conj(along)) / np.maximum(np.abs(along) ** 2, _SAME**2), 0.0, 1.0)
+    return np.asarray(np.abs(at - start - share * along))
+
+
+def _between(one: Sequence[Complex], other: Sequence[Complex]) -> Real:
+    """How far two figures of straight ways between all of their corners are apart, mm; 0 where ways cross."""
+    found = []
+    for a, b in combinations(one, 2) if len(one) > 1 else [(one[0], one[0])]:
+        for c, d in combinations(other, 2) if len(other) > 1 else [(other[0], other[0])]:
+            near = [_to_way(a, (c, d)), _to_way(b, (c, d)), _to_way(c, (a, b)), _to_way(d, (a, b))]
+            sides = [((q - p).conjugate() * (r - p)).imag * ((q - p).conjugate() * (s - p)).imag
+                     for p, q, r, s in ((a, b, c, d), (c, d, a, b))]  # fmt: skip
+            found.append(np.where((sides[0] < 0) & (sides[1] < 0), 0.0, np.min(near, axis=0)))
+    return np.asarray(np.min(found, axis=0))
+
+
+LEVER_MODEL = Recipe(LeverModelKeys, lambda keys: _Making(keys).all())

@@ -1,0 +1,371 @@
+"""Models of lever mechanisms: poses, films and solids of their files against a mechanism solved by Newton's method."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+import re
+import tomllib
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import manifold3d
+import numpy as np
+import pytest
+import trimesh
+
+from exporters.command.cli import main
+from tests.exporters.production.test_motion_files import at as in_film
+from tests.parts.scene.test_laid_cams import frames, rigid, stood
+
+Keys = dict[str, Any]
+Pose = tuple[complex, float]
+SIX: Keys = {
+    "first": "rods", "second": "slider", "first_side": -1, "crank_length": 20.0, "frame_length": 75.0,
+    "coupler_length": 70.0, "lever_length": 45.0, "arm_length": 70.0, "rod_length": 80.0, "guide_height": 62.0,
+}  # fmt: skip
+BENT: Keys = {
+    "first": "rods", "second": "rocker", "first_side": -1, "crank_length": 20.0, "frame_length": 75.0,
+    "coupler_length": 70.0, "lever_length": 45.0, "arm_length": 60.0, "arm_angle_deg": 40.0, "rod_length": 100.0,
+    "rocker_length": 60.0, "pivot_distance": 85.0, "pivot_angle_deg": 10.0,
+}  # fmt: skip
+SLOTTED: Keys = {
+    "first": "stone", "second": "slider", "crank_length": 20.0, "frame_length": 55.0, "frame_angle_deg": -90.0,
+    "lever_length": 110.0, "rod_length": 60.0, "guide_height": 100.0,
+}  # fmt: skip
+CRANK_SLIDER: Keys = {
+    "first": "slider", "crank_length": 20.0, "coupler_length": 70.0, "guide_height": 8.0, "guide_angle_deg": 30.0,
+}  # fmt: skip
+ALL = {"six": SIX, "bent": BENT, "slotted": SLOTTED, "crank_slider": CRANK_SLIDER}
+
+
+def text_of(mechanism: Keys, more: str = "", **keys: object) -> str:
+    """A scene of one model."""
+    rows = [f"{key} = {json.dumps(value)}" for key, value in keys.items()]
+    rows += ["[assemblies.mechanism]", *(f"{key} = {json.dumps(value)}" for key, value in mechanism.items())]
+    return '[[assemblies]]\nkind = "lever_model"\n' + "\n".join(rows) + "\n" + more
+
+
+def written(folder: Path, text: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "m.toml"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+class Solved:
+    """A mechanism whose joints are found by Newton's method from the lengths of its links alone."""
+
+    def __init__(self, keys: Keys) -> None:
+        self.keys = keys
+        self.pivot = cmath.rect(keys.get("frame_length", 0.0), math.radians(keys.get("frame_angle_deg", 0.0)))
+        way = cmath.exp(1j * math.radians(keys.get("guide_angle_deg", 0.0)))
+        self.way, self.on = way, self.pivot + keys.get("guide_height", 0.0) * 1j * way
+        self.arm = cmath.rect(keys.get("arm_length", keys.get("lever_length", 1.0)),
+                              math.radians(keys.get("arm_angle_deg", 0.0)))  # fmt: skip
+        self.other = self.pivot + cmath.rect(keys.get("pivot_distance", 0.0),
+                                             math.radians(keys.get("pivot_angle_deg", 0.0)))  # fmt: skip
+        self.angle = 0.0
+        self.found = self._begun()
+
+    def _lever(self, x: np.ndarray) -> complex:
+        """O3C: turned and stretched from O3B."""
+        return self.pivot + (complex(x[0], x[1]) - self.pivot) * self.arm / self.keys["lever_length"]
+
+    def _off(self, x: np.ndarray) -> np.ndarray:
+        """By what the links are too long, for B and D."""
+        keys, a = self.keys, cmath.rect(self.keys["crank_length"], self.angle)
+        b = complex(x[0], x[1])
+        if keys["first"] == "rods":
+            off = [abs(b - a) - keys["coupler_length"], abs(b - self.pivot) - keys["lever_length"]]
+        elif keys["first"] == "stone":
+            along = (b - self.pivot) * (a - self.pivot).conjugate()
+            off = [along.imag / abs(a - self.pivot), abs(b - self.pivot) - keys["lever_length"]]
+        else:
+            off = [abs(b - a) - keys["coupler_length"], ((b - self.on) / self.way).imag]
+        if len(x) > 2:
+            c, d = self._lever(x), complex(x[2], x[3])
+            off.append(abs(d - c) - keys["rod_length"])
+            slides = keys["second"] == "slider"
+            off.append(((d - self.on) / self.way).imag if slides else abs(d - self.other) - keys["rocker_length"])
+        return np.array(off)
+
+    def _newton(self, x: np.ndarray) -> np.ndarray | None:
+        for _ in range(60):
+            off = self._off(x)
+            if np.abs(off).max() < 1e-11:
+                return x
+            slopes = [(self._off(x + step) - self._off(x - step)) / 2e-6 for step in 1e-6 * np.eye(len(x))]
+            x = x - np.linalg.lstsq(np.column_stack(slopes), off, rcond=None)[0]
+        return None
+
+    def _begun(self) -> np.ndarray:
+        """The solution on the sides that are asked for, from many beginnings."""
+        keys, draws = self.keys, np.random.default_rng(1)
+        size = 4 if keys.get("second", "none") != "none" else 2
+        for _ in range(500):
+            x = self._newton(draws.uniform(-150, 150, size))
+            if x is not None and self._on_sides(x):
+                return x
+        raise AssertionError(keys)
+
+    def _on_sides(self, x: np.ndarray) -> bool:
+        keys, a, b = self.keys, complex(self.keys["crank_length"]), complex(x[0], x[1])
+        if keys["first"] == "stone" and ((b - self.pivot) / (a - self.pivot)).real < 0:
+            return False
+        if keys["first"] == "rods" and ((self.pivot - a) / (b - a)).imag * keys.get("first_side", 1) < 0:
+            return False
+        if keys["first"] == "slider" and ((b - a) / self.way).real < 0:
+            return False
+        if len(x) == 2:
+            return True
+        c, d = self._lever(x), complex(x[2], x[3])
+        seen = ((d - c) / self.way).real if keys["second"] == "slider" else ((self.other - c) / (d - c)).imag
+        return seen * keys.get("second_side", 1) > 0
+
+    def turned(self, angle: float) -> dict[str, Pose]:
+        """Origin and turn of each link, the crank turned on to an angle, rad."""
+        steps = max(1, math.ceil(abs(angle - self.angle) / math.radians(2)))
+        for _ in range(steps):
+            self.angle += (
+                (angle - self.angle) / steps if steps == 1 else math.copysign(math.radians(2), angle - self.angle)
+            )
+            steps = max(1, steps - 1)
+            found = self._newton(self.found)
+            assert found is not None
+            self.found = found
+        x, a = self.found, cmath.rect(self.keys["crank_length"], self.angle)
+        b = complex(x[0], x[1])
+        poses = {"frame": (0j, 0.0), "crank": (0j, self.angle)}
+        if self.keys["first"] != "stone":
+            poses["rod"] = a, cmath.phase(b - a)
+        if self.keys["first"] != "slider":
+            name = "rocker" if self.keys["first"] == "rods" else "slotted_lever"
+            poses[name] = self.pivot, cmath.phase(b - self.pivot)
+        if len(x) > 2:
+            c, d = self._lever(x), complex(x[2], x[3])
+            poses["second_rod"] = c, cmath.phase(d - c)
+            if self.keys["second"] == "rocker":
+                poses["second_rocker"] = self.other, cmath.phase(d - self.other)
+        return poses
+
+    @property
+    def output(self) -> complex:
+        """The last joint."""
+        return complex(*self.found[-2:])
+
+
+@cache
+def built(folder: Path, name: str) -> Path:
+    """A model with its film and its solids, all of it read back."""
+    more = '[[exports]]\nformat = "motion"\n[[exports]]\nformat = "stl"\n'
+    file = written(folder / name, text_of(ALL[name], more))
+    assert main(["build", str(file), "--out", str(folder / name), "-q"]) == 0
+    return folder / name / "m"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    folder = tmp_path_factory.mktemp("levers")
+    return lambda name: built(folder, name)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_the_film_shows_the_mechanism(name: str, made: Callable[[str], Path]) -> None:
+    """At 60 angles of the crank, every link; a millimetre more of one length is seen."""
+    file, solved = made(name) / "m.motion.svg", Solved(ALL[name])
+    longer = Solved(ALL[name] | {"crank_length": ALL[name]["crank_length"] + 1.0})
+    worst = control = 0.0
+    for k in range(60):
+        poses, others = solved.turned(math.tau * k / 60), longer.turned(math.tau * k / 60)
+        for link, (place, turn) in poses.items():
+            seen, angle = in_film(file, link, k / 60)
+            lean = abs(cmath.exp(1j * math.radians(angle)) - cmath.exp(1j * turn))
+            worst = max(worst, abs(seen - place), 100 * lean)
+            control = max(control, abs(seen - others[link][0]))
+    assert worst < 0.03
+    assert control > 0.9 or name == "slotted"
+
+
+def bodies(folder: Path) -> tuple[dict[str, trimesh.Trimesh], dict[str, str], dict[str, Any]]:
+    """The solid of each instance as its file has it, the link to which it is fixed, and where it begins."""
+    report = json.loads((folder / "report.json").read_text("utf-8"))
+    stands, scene = report["instances"], report["scene"]
+    meshes = {key: trimesh.load_mesh(folder / f"{one['part']}.stl") for key, one in scene["instances"].items()}
+    on = {mate["second"]: mate["first"] for mate in scene["mates"] if mate["kind"] == "fixed"}
+    return meshes, {key: on.get(key, key) for key in meshes}, stands
+
+
+def overlaps(folder: Path, name: str, count: int, **other: float) -> dict[tuple[str, str], float]:
+    """Greatest volume that two bodies share over a turn, mm3, as manifold3d has it; moved as ``other`` keys have it."""
+    meshes, on, stands = bodies(folder)
+    begun, solved = Solved(ALL[name]).turned(0.0), Solved(ALL[name] | other)
+    found: dict[tuple[str, str], float] = {}
+    solids = {
+        key: manifold3d.Manifold(manifold3d.Mesh(np.asarray(m.vertices, "f4"), np.asarray(m.faces, "u4")))
+        for key, m in meshes.items()
+    }
+    assert all(solid.status() == manifold3d.Error.NoError for solid in solids.values())
+    for k in range(count):
+        poses = solved.turned(math.tau * k / count)
+        placed = {}
+        for key, solid in solids.items():
+            x, y, z = stands[key]["at"]
+            start, now = begun[on[key]], poses[on[key]]
+            turn = now[1] - start[1]
+            at = now[0] + (complex(x, y) - start[0]) * cmath.exp(1j * turn)
+            lean = math.degrees(math.radians(stands[key]["rotation_deg"]) + turn)
+            placed[key] = solid.rotate((0.0, 0.0, lean)).translate((at.real, at.imag, z))
+        keys = [*placed]
+        for i, one in enumerate(keys):
+            for other in keys[i + 1 :]:
+                if on[one] != on[other]:
+                    shared = (placed[one] ^ placed[other]).volume()
+                    found[one, other] = max(found.get((one, other), 0.0), shared)
+    return found
+
+
+@pytest.mark.parametrize("name", ["six", "slotted", "crank_slider", pytest.param("bent", marks=pytest.mark.heavy)])
+def test_nothing_meets_over_a_turn(name: str, made: Callable[[str], Path]) -> None:
+    """By the solids of the files and poses of our own; and the frame of another mechanism is met by the pins."""
+    found = overlaps(made(name), name, 24)
+    assert max(found.values()) < 0.01, {pair: volume for pair, volume in found.items() if volume > 0.01}
+    key = "guide_height" if "guide_height" in ALL[name] else "pivot_distance"
+    met = overlaps(made(name), name, 4, **{key: ALL[name][key] + 1.5})
+    assert max(met.values()) > 1.0
+
+
+@pytest.mark.parametrize("name", ["six", "slotted", pytest.param("crank_slider", marks=pytest.mark.heavy)])
+def test_check_finds_it_clear(
+    name: str, made: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With solids, over the whole turn; the slot of another frame is met."""
+    checks = "[checks]\ninterference = true\n"
+    assert main(["check", str(written(tmp_path, text_of(ALL[name], checks)))]) == 0
+    said = capsys.readouterr().out
+    assert "solids in motion" in said
+    (slot,) = json.loads((made(name) / "report.json").read_text("utf-8"))["scene"]["parts"]["frame"]["slots"]
+    across = 2j * Solved(ALL[name]).way
+    rows = [f"{end} = [{slot[end][0] + across.real}, {slot[end][1] + across.imag}]" for end in ("start", "end")]
+    moved = f"[parts.frame]\nslots = [{{ {', '.join(rows)}, width = {slot['width']} }}]\n"
+    assert main(["check", str(written(tmp_path, text_of(ALL[name], moved + checks)))]) == 1
+    assert "OVERLAP" in "".join(capsys.readouterr())
+
+
+def test_reports_tell_what_calc_tells(made: Callable[[str], Path], capsys: pytest.CaptureFixture[str]) -> None:
+    """Strokes and the ratio of both ways, against our own turn in half degrees too."""
+    for name in ("six", "slotted", "crank_slider"):
+        quantities = json.loads((made(name) / "report.json").read_text("utf-8"))["parts"]["crank"]
+        capsys.readouterr()
+        assert main(["calc", "lever", str(made(name).parent / "m.toml"), "--format", "json"]) == 0
+        told = {one["name"]: one["value"] for one in json.loads(capsys.readouterr().out)["steps"]}
+        assert quantities["slider_stroke"] == pytest.approx(told["output_stroke"], rel=1e-9)
+        assert quantities["ratio_of_ways"] == pytest.approx(told["ratio_of_ways"], rel=1e-6)
+        solved, places = Solved(ALL[name]), []
+        for k in range(720):
+            solved.turned(math.tau * k / 720)
+            places.append((solved.output / solved.way).real)
+        assert max(places) - min(places) == pytest.approx(quantities["slider_stroke"], abs=2e-3)
+        way = abs(int(np.argmax(places)) - int(np.argmin(places))) / 720
+        assert max(way, 1 - way) / min(way, 1 - way) == pytest.approx(quantities["ratio_of_ways"], abs=0.02)
+
+
+def test_calc_begins_where_the_model_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = written(tmp_path, text_of(SIX, crank_angle_deg=75.0))
+    assert main(["calc", "lever", str(file), "--format", "json"]) == 0
+    steps = {one["name"]: one["value"] for one in json.loads(capsys.readouterr().out)["steps"]}
+    assert steps["crank_angle_deg"] == pytest.approx(75.0)
+    assert (steps["first_rod_length"], steps["guide_offset"]) == (70.0, 62.0)
+
+
+REFUSED: list[tuple[Keys, Keys, str, str]] = [
+    # the crank goes round over the lever's axle
+    ({"first": "stone", "crank_length": 40.0, "frame_length": 25.0, "lever_length": 100.0}, {},
+     "mechanism.frame_length = 25.0", "at least 53 mm"),
+    # two rockers: no crank
+    (SIX | {"crank_length": 60.0}, {}, "mechanism.coupler_length = 70.0", ""),
+    ({"first": "slider", "crank_length": 6.0, "coupler_length": 70.0}, {}, "mechanism.crank_length = 6.0",
+     "at least 7.15 mm"),
+    ({"first": "rods", "crank_length": 20.0, "frame_length": 30.0, "coupler_length": 30.0, "lever_length": 30.0}, {},
+     "mechanism.frame_length = 30.0", "at least"),
+    (SIX, {"link_width": 8.0}, "link_width = 8.0", "at least 10.3 mm"),
+    # the pin of the second rod would stand in the slot
+    (SLOTTED | {"arm_length": 60.0}, {}, "mechanism.arm_length = 60.0", "at least"),
+    (CRANK_SLIDER | {"coupler_length": 29.5}, {}, "mechanism.coupler_length = 29.5", "at least"),
+    (CRANK_SLIDER | {"frame_length": 50.0}, {}, "mechanism.frame_length = 50.0", ""),
+    ({"first": "rods", "crank_length": 20.0}, {}, "mechanism.frame_length", ""),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("mechanism", "keys", "said", "offered"), REFUSED)
+def test_what_cannot_be_cut_is_refused_by_its_key(
+    mechanism: Keys, keys: Keys, said: str, offered: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In one line of either language; what is offered is made."""
+    file = written(tmp_path, text_of(mechanism, **keys))
+    lines = []
+    for language in ("en", "uk"):
+        assert main(["check", str(file), "--language", language]) == 2
+        lines.append(capsys.readouterr().err)
+        assert lines[-1].count("\n") == 1
+        assert f"assemblies[1].{said}" in lines[-1]
+    assert [bool(re.search("[а-щ]", line)) for line in lines] == [False, True]
+    assert offered in lines[0]
+    if found := re.search(r"at least ([\d.]+) mm works", lines[0]):
+        name = said.partition(" ")[0].rpartition(".")[2]
+        better = (
+            (mechanism | {name: float(found[1])}, keys) if name in mechanism else (mechanism, {name: float(found[1])})
+        )
+        assert main(["check", str(written(tmp_path, text_of(better[0], **better[1])))]) == 0
+
+
+CRANK = """[parts.crank]
+kind = "lever_crank"
+mechanism = { first = "rods", crank_length = 25.0, frame_length = 80.0, coupler_length = 70.0, lever_length = 50.0 }
+[parts.rod]
+kind = "follower_arm"
+end = "roller"
+arm_length = 70.0
+[[mates]]
+kind = "lever_member"
+first = "crank"
+second = "rod"
+member = "rod"
+height = 10.0
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("arm_length = 70.0", "arm_length = 71.0", "parts.rod.arm_length = 71.0"),
+        ('member = "rod"', 'member = "slider"', "mates[1].member"),
+        ("coupler_length = 70.0", "coupler_length = 150.0", "parts.crank.mechanism.coupler_length = 150.0"),
+        ("coupler_length = 70.0", "coupler_length = 70.0, rod_length = 3.0", "parts.crank.mechanism.rod_length = 3.0"),
+    ],
+)
+def test_links_of_another_mechanism_are_refused(
+    old: str, new: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(written(tmp_path, CRANK))]) == 0
+    capsys.readouterr()
+    assert main(["check", str(written(tmp_path, CRANK.replace(old, new)))]) == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("axis", [[1.0, -2.0, 2.0], [0.0, 0.0, -1.0]], ids=["askew", "turned over"])
+def test_a_mechanism_that_is_laid_moves_as_it_does_upright(axis: list[float]) -> None:
+    """Invariance: all turned as one body, whatever the crank does."""
+    raw = tomllib.loads(CRANK)
+    one, two = (
+        stood({**raw, "instances": {"crank": {"at": [3.0, -4.0, 5.0]} | more}, "drives": [{"instance": "crank"}]})[0]
+        for more in ({}, {"axis": axis})
+    )
+    whole = rigid(frames(two, 0.0)["crank"]) @ np.linalg.inv(rigid(frames(one, 0.0)["crank"]))
+    for turns in (0.0, 0.3, 0.8):
+        upright, laid = frames(one, turns), frames(two, turns)
+        for key, stands in upright.items():
+            assert np.allclose(rigid(laid[key]), whole @ rigid(stands), atol=1e-9), key
