@@ -497,9 +497,13 @@ def _to_involutes(base: float, upper: bool, angles: Real, points: Real) -> Real:
 
 
 def _check_outlines(joint: StraightJoint | InvoluteJoint, clearance: float) -> None:
-    """Refuse a joint whose hub or shaft has no outline, each within its clearance, mm: an OffsetError."""
-    joint.hub().widened(clearance).outline()
-    joint.shaft().outline(-clearance)
+    """Refuse a joint whose hub or shaft has no outline within its clearance, mm, or that do not fit: an OffsetError."""
+    hub, shaft = joint.hub(), joint.shaft()
+    hub.widened(clearance).outline()
+    shaft.outline(-clearance)
+    # the mouth of a slot is as wide as its chamfer, where the sides of the shaft begin beyond its rounding
+    if isinstance(joint, StraightJoint) and shaft.side_diameters[0] > hub.side_diameters[0]:
+        raise OffsetError(clearance, "spline_mouth_narrow")
 
 
 def _of_root(joint: StraightJoint | InvoluteJoint, blamed: tuple[str, object], clearance: float) -> tuple[str, object]:

@@ -121,10 +121,16 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
             key = refusal.name.removeprefix("bore.")
             # of small sizes that are typed the one that alone is too much
             small = [one for one in dict.fromkeys((key, *_SMALL)) if one in _SMALL and getattr(self, one, None)]
+            ways = [(one, 0.0) for one in small]
+            if key == "root_rounding" and "chamfer" in small and isinstance(refusal.value, float):
+                # a mouth as wide as the rounding lets it in
+                ways.append(("chamfer", refusal.value))
             told = refusal
-            if (one := next((one for one in small if kept(partial(self._fits, one), 0.0)), None)) is not None:
-                key, given = one, getattr(self, one)
-                told = refusal.told_of(key, given, partial(nearest, partial(self._fits, key), given, 0.0))
+            for one, works in ways:
+                if kept(partial(self._fits, one), works):
+                    key, given = one, getattr(self, one)
+                    told = refusal.told_of(key, given, partial(nearest, partial(self._fits, key), given, works))
+                    break
             raise told.renamed(".".join(filter(None, (place, key)))) from refusal
         return made
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from random import Random
 from typing import Any
@@ -248,6 +249,30 @@ def test_a_rounding_without_room_is_blamed_itself(size: dict[str, Any]) -> None:
     StraightSplineTable(root_rounding=most, **size).checked("spline")
     with pytest.raises(ParameterError):
         StraightSplineTable(root_rounding=most + 2e-4, **size).checked("spline")
+
+
+@pytest.mark.parametrize(
+    ("keys", "name", "fits"),
+    # the rounding r of the shaft ends sqrt((d / 2 + r)^2 - (b / 2 + r)^2) from the middle, the chamfer c begins at
+    # sqrt(d^2 - b^2) / 2 + c
+    [
+        ({"size": "8x32x36", "chamfer": 0.2}, "chamfer", math.sqrt(16.3**2 - 3.3**2) - math.sqrt(16**2 - 9)),
+        ({"size": "6x23x26", "chamfer": 0.1}, "chamfer", math.sqrt(11.7**2 - 3.2**2) - math.sqrt(11.5**2 - 9)),
+    ],
+)
+def test_a_chamfer_that_lets_no_rounded_root_in_is_refused(keys: dict[str, Any], name: str, fits: float) -> None:
+    """Files were made that failed their own read-back: the mate of the spline has a clearance of -0.0035 mm."""
+    with pytest.raises(ParameterError) as caught:
+        StraightSplineTable(**keys).checked("bore")
+    assert (caught.value.code, caught.value.name) == ("spline_mouth_narrow", f"bore.{name}")
+    limit = caught.value.nearest
+    assert limit is not None
+    assert (limit.side, limit.value) == ("at_least", pytest.approx(fits, abs=2e-4))
+    StraightSplineTable(**keys | {name: limit.value}).checked("bore")
+    with pytest.raises(ParameterError):
+        StraightSplineTable(**keys | {name: fits - 1e-4}).checked("bore")
+    # the sides of a shaft that does not centre on its root begin within the hub
+    StraightSplineTable(size="D-8x36x40", chamfer=0.0).checked("bore")
 
 
 def test_round_roots_do_not_centre_by_the_fit_of_the_outer_diameter() -> None:
