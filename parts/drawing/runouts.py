@@ -8,6 +8,9 @@ from parts.drawing.working import Note, PartDrawing, Round, Size, Spot, Subject,
 # the sizes whose axis is the datum, the first that a drawing has; of splines the one that centres, which has a zone
 _DATUMS = ("bore_diameter", "bore.across_flats", "spline.outer_diameter", "spline.inner_diameter", "outer_diameter")
 
+# decimals of a tolerance, which stands as it is given
+_DIGITS = 4
+
 
 def with_runouts(drawing: PartDrawing, subject: Subject) -> tuple[PartDrawing, set[str]]:
     """The drawing with the runouts that are wished, and the keys of those; none where it has no datum."""
@@ -23,7 +26,7 @@ def with_runouts(drawing: PartDrawing, subject: Subject) -> tuple[PartDrawing, s
         return drawing, set()
     centred = [one for one in found if one.name.startswith("spline") and one.after]
     datum, letter = (centred or found)[0], _letter(drawing.views, subject)
-    frames = [_frame(places[key], subject.say(size), letter) for key, size in wished.items()]
+    frames = [_frame(places[key], subject.say(size, _DIGITS), letter) for key, size in wished.items()]
     main, *others = (_marked(view, datum, letter) for view in drawing.views)
     return replace(drawing, views=(main.plus(notes=frames), *others)), {*wished}
 

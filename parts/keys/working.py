@@ -41,7 +41,7 @@ def _rough(meaning: str) -> Meta:
 
 def _runout(meaning: str) -> Meta:
     told = f"runout of {meaning}, in the frame of GOST 2.308, its datum marked"
-    return Meta(gt=0, le=10, description=told, extra={"unit": "mm"}, examples=[0.05])
+    return Meta(ge=1e-4, le=10, description=told, extra={"unit": "mm"}, examples=[0.05])
 
 
 _Requirement = Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]

@@ -161,3 +161,8 @@ def test_a_runout_that_nothing_drawn_has_is_refused_by_its_key(name: str, key: s
     assert caught.value.key == f"exports[1].drawing.{key}"
     with pytest.raises(SceneError):
         jobs(PARTS["gear"], drawing={key: 0.0})
+
+
+def test_a_tolerance_stands_as_it_is_given_and_is_not_rounded_up(tmp_path: Path) -> None:
+    dxf, _ = written(tmp_path, PARTS["helical"], drawing={"tip_runout": 0.0125, "face_runout": 0.0004})
+    assert {"0.0125", "0.0004"} <= {text for text, _ in Read(dxf).words}
