@@ -94,6 +94,11 @@ SHEETS = [
     ("train", "case=practicum_1", "counted_turns=0.06"),
     ("planetary", "scheme=david", "teeth=[50,30,20,60]", "satellites=4"),
     ("planetary", "scheme=one_external_one_internal", "teeth=[18,36,20,72]", "helix_angle_deg=-20"),
+    ("identify", "number_of_teeth=24", "teeth_spanned=4", "span=32.83", "next_span=41.68", "tip_diameter=80.4",
+     "root_diameter=66.9"),
+    ("identify", "number_of_teeth=24", "teeth_spanned=5", "span=42.01", "next_span=50.87", "helix_angle_deg=25"),
+    ("ratio", "ratio=3.2", "module=2"),
+    ("ratio", "ratio=12.37", "stages=2"),
     ("gear-pair", "practicum_pair", "speed_rpm=300"),
     ("gear-pair", *PAIR),
     ("gear-pair", *PAIR, "helix_angle_deg=30", "working_centre_distance=125", "second.profile_shift_coefficient=0"),
@@ -336,7 +341,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(words)
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3, "thread": 8}.get(
+    assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3, "thread": 8, "ratio": 3}.get(
         words[0], 8
     )
     for step in checked:
@@ -368,8 +373,8 @@ def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...
         assert re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}|\bз ", uk) or uk[0].isdigit() or "cos" in uk or "inv" in uk, uk
 
 
-# points that name: equations, figures, tables and sections, threads
-NAMED = r"\(\d\.\d+\)|(рис|табл|пп)\. \d\.\d+(–\d\.\d+)?|таблиця 1\.\d|M20×1\.5"
+# points that name: equations, figures, tables and sections, threads; and those of keys as a scene has them
+NAMED = r"\b[a-z]+_[a-z_]+ = \d+\.\d+|\(\d\.\d+\)|(рис|табл|пп)\. \d\.\d+(–\d\.\d+)?|таблиця 1\.\d|M20×1\.5"
 
 
 @pytest.mark.sampled(12)
