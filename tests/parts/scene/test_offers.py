@@ -406,7 +406,7 @@ def test_a_trial_does_not_ask_how_much_is_wrong(
         ("lesson_5", "stem_width", 1.2, "parts.washer.holes[1].diameter", ["clearance", "roller_pin_diameter"],
          "stem_width"),
         # was told as a pin diameter of 105 mm, which nobody has typed
-        ("lesson_2", "clearance", 100.0, "parts.satellite.bore_diameter", ["clearance", "pin_diameter"], "module"),
+        ("lesson_2", "pin_diameter", 100.0, "parts.satellite.bore_diameter", ["clearance", "pin_diameter"], "module"),
     ],
 )  # fmt: skip
 def test_what_a_recipe_makes_tells_the_keys_that_it_follows_from(
