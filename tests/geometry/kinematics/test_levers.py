@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import ParameterError
@@ -218,6 +218,9 @@ def joins(levers: Levers, angle: float) -> bool:
         lever *= cmath.exp(1j * first.side * math.acos(cosine))
     if second is None:
         return True
+    if not lever:
+        # a stone on its pivot gives its lever no direction
+        return False
     end = first.pivot + levers.arm * lever / abs(lever)
     if isinstance(second, Slider):
         return abs(((end - second.on) / cmath.exp(1j * second.angle)).imag) < second.rod
@@ -225,6 +228,7 @@ def joins(levers: Levers, angle: float) -> bool:
 
 
 @given(mechanisms())
+@example(Levers(20.0, 1.0, Stone(20 + 0j), 20.0, 21 + 0j, Slider(20.0, 20 + 0j)))
 @examples(120)
 def test_the_crank_moves_between_the_angles_at_which_links_close(levers: Levers) -> None:
     found = ranges(levers)
