@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import replace
 from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report, diameters
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 # sizes of a chain that is told by its designation or by these
 _SIZES = ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse_pitch", "strands")
 _Length = float | None
+# of the pitch: flatter bevels are so near to the faces that the last digits of heights in files move their edges
+_LEAST_BEVEL = 0.01
 
 _CHAIN = Meta(
     description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2), of motorcycles (428) or of "
@@ -95,6 +97,8 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
         sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
         if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):
             raise ParameterError("tooth_bevel", keys.tooth_bevel, "chamfers_meet", most_of(most, keys.tooth_bevel))
+        if 0 < keys.tooth_bevel < (least := _LEAST_BEVEL * chain.pitch):
+            raise ParameterError("tooth_bevel", keys.tooth_bevel, "bevel_of_no_height", limit(least, keys.tooth_bevel))
         sprocket = replace(sprocket, bevel=keys.tooth_bevel)
         if self.rim(sprocket) is not None and keys.face_chamfer:
             raise ParameterError("face_chamfer", None, "of_plain_teeth", Nearest(None))

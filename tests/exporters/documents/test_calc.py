@@ -341,9 +341,15 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(words)
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3, "thread": 8, "ratio": 3}.get(
-        words[0], 8
-    )
+    assert len(checked) >= {
+        "cam": 4,
+        "pulley": 2,
+        "planetary": 4,
+        "involute": 0,
+        "spline": 3,
+        "thread": 8,
+        "ratio": 3,
+    }.get(words[0], 8)
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 

@@ -98,6 +98,7 @@ def test_a_step_file_of_bevelled_teeth_is_read_back(tmp_path: Path) -> None:
         (PLATE | {"bore_diameter": 61.0}, "bore_diameter", 60.505767),
         (PLATE | {"chain": "08B-2", "face_chamfer": 0.5}, "face_chamfer", None),
         (PLATE | {"tooth_bevel": 4.0}, "tooth_bevel", 3.60374),
+        (PLATE | {"tooth_bevel": 0.05}, "tooth_bevel", 0.127),
         (PLATE | {"tooth_bevel": 1.0, "face_chamfer": 0.5}, "face_chamfer", None),
         (OWN | {"inner_width": 7.75, "strands": 2}, "transverse_pitch", None),
     ],
