@@ -25,6 +25,8 @@ from parts.texts.checks import (
     pairs_counted,
 )
 
+# pairs that are told one by one, the rest by its number
+_MOST_TOLD = 20
 # gaps below this are rounding, mm
 _ROUNDING = 1e-9
 _ERROR = N_("transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}")
@@ -112,12 +114,20 @@ def check_lines(
         apart = ", ".join(names.get(name, name) for name in checks["in_a_row"])
         row = N_("note: neither `at` nor a mate places them, so they stand in a row: {names}")
         lines.append(told.text(row, names=apart))
-    for close in checks.get("neighbours", []):
+    near = sorted(checks.get("neighbours", []), key=lambda close: close["distance"] - close["sum_of_tip_radii"])
+    for close in near[:_MOST_TOLD]:
         numbers = called(close, names) | {"value": close["distance"], "limit": close["sum_of_tip_radii"]}
         lines.append(told.text("note: {text}", text=filled(CLOSE, **numbers)))
+    if (more := len(near) - _MOST_TOLD) > 0:
+        lines.append(told.text("note: {pairs} more may touch", pairs=pairs_counted(more)))
     drive = next((one["instance"] for one in checks.get("drives", [])), "")
-    for one in checks.get("solids", []):
+    solids = checks.get("solids", [])
+    for one in solids[:_MOST_TOLD]:
         lines.append(f"{told.text(VERDICTS[one['verdict']])}: {overlap_told(one, told, names, drive)}")
+    for verdict, count in Counter(one["verdict"] for one in solids[_MOST_TOLD:]).items():
+        lines.append(
+            told.text("{verdict}: {pairs} more", verdict=Message(VERDICTS[verdict]), pairs=pairs_counted(count))
+        )
     if "motion" in checks and not brief:
         lines += _motion(checks["motion"], told, names)
     if "workspace" in checks and not brief:

@@ -276,3 +276,16 @@ def test_words_that_a_pdf_cannot_write_are_named_by_their_key(place: str, keys: 
     with pytest.raises(SceneError) as refused:
         plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s.toml", [], [])
     assert (refused.value.key, refused.value.code) == (place, "no_such_letter_on_paper")
+
+
+def test_of_many_pairs_the_nearest_are_told_and_how_many_more_there_are() -> None:
+    """A thousand gears in one place made half a million lines; the report has them all."""
+    neighbours = [
+        {"first": "a", "second": f"x{k}", "distance": 4.0 - 0.01 * k, "sum_of_tip_radii": 4.0} for k in range(30)
+    ]
+    solids = [{"verdict": "overlap", "first": "a", "second": f"x{k}", "volume": 2.0} for k in range(21)]
+    lines = check_lines({"neighbours": neighbours, "solids": solids}, "en", NAMES)
+    assert len(lines) == 20 + 1 + 20 + 1
+    assert lines[0] == "note: Gear A and x29 may touch: 3.71 mm apart, their tips reach 4 mm, no mate joins them"
+    assert lines[20] == "note: 10 pairs more may touch"
+    assert lines[-1].lower() == "overlap: 1 pair more"
