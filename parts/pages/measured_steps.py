@@ -8,6 +8,7 @@ from functools import partial
 from geometry.base.errors import ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record
+from geometry.base.tolerance import is_told
 from geometry.gears.teeth import measurement
 from geometry.gears.teeth.measurement import SPAN_CONTACT, Measured, Span
 from geometry.gears.teeth.ring import RingGear
@@ -245,7 +246,7 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         own = " + {A}" if gear.circumferential_thinning else ""
         formula = f"{{d}} * ({formula}){own}"
         page.add("thinning_from_size", thinned, formula, ISO)
-    if not (found.touches_flanks and found.stands_out):
+    if not ((found.touches_flanks and found.stands_out) or is_told(pin, low) or is_told(pin, high)):
         told = (
             N_("a ball of {diameter:.4g} mm touches no involute or is sunk; {least:.4g} to {greatest:.4g} mm touch")
             if helix

@@ -6,6 +6,7 @@ import math
 from typing import Annotated
 
 from geometry.base.record import replace
+from geometry.base.tolerance import is_told
 from geometry.gears.teeth import rack_measurement
 from geometry.gears.teeth.rack import Rack
 from parts.base.texts import N_
@@ -108,6 +109,6 @@ def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
         page.add("thinning_from_rack_size", thinned.circumferential_thinning, formula)
     formula = f"({{D}} * cos({{alpha_n}}) - {{e}}{share}) / (2 * tan({{alpha_n}}))"
     page.add("pin_contact_height", found.contact_height, formula)
-    if not (found.touches_flanks and found.stands_out):
+    if not ((found.touches_flanks and found.stands_out) or is_told(pin, low) or is_told(pin, high)):
         told = N_("a pin of {diameter:.4g} mm does not touch the flanks or does not stand out; take the best one")
         page.note(told, diameter=pin)

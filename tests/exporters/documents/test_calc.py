@@ -1214,6 +1214,20 @@ def test_the_least_length_of_a_worm_goes_by_the_shift(shift: float, starts: int,
     assert values_of(words)["values"]["least_worm_length"] == pytest.approx(least, rel=1e-12)
 
 
+@pytest.mark.parametrize("words", ["spur number_of_teeth=26", "spur number_of_teeth=29 helix_angle_deg=20",
+                                   "ring number_of_teeth=73", "ring number_of_teeth=49",
+                                   "rack number_of_teeth=20"])  # fmt: skip
+def test_the_least_and_the_greatest_pin_touch_as_they_are_told(words: str) -> None:
+    """A pin of 1.386 mm touched no involute: 1.386 to 2.896 mm touch."""
+    tool = "ball" if "helix" in words else "pin"
+    values = values_of(f"{words} module=1")["values"]
+    name = "rack_pin" if "rack" in words else f"{tool}_diameter"
+    least, greatest = (round(values[f"{end}_{name}"], 5) for end in ("least", "greatest"))
+    for pin, told in ((least, False), (greatest, False), (least - 2e-5, True), (greatest + 2e-5, True)):
+        notes = values_of(f"{words} module=1 pin_diameter={pin:.5f}")["notes"]
+        assert any(re.search("touches no involute|does not touch", note) for note in notes) == told
+
+
 @pytest.mark.parametrize(
     "words", ["number_of_teeth=22", "number_of_teeth=13", "number_of_teeth=11 helix_angle_deg=20", "number_of_teeth=9"]
 )
