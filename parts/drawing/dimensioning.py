@@ -215,9 +215,11 @@ class _Layout:
             match one:
                 case Size():
                     # where extension lines will run past its words
-                    later = (other for other in order[k + 1 :] if isinstance(other, Size) and other.side == one.side)
+                    later = [other for other in order[k + 1 :] if isinstance(other, Size) and other.side == one.side]
                     coming = [self.paper.point(p) for other in later for p in (other.start, other.end)]
-                    self._put(one, self._sizes(one, coming), self._sizes(one, ()))
+                    # one that is placed before those that will stand within it leaves them their rows
+                    within = sum(_is_within(other, one) for other in later)
+                    self._put(one, self._sizes(one, coming, within), self._sizes(one, (), within))
                 case Slant():
                     self._put(one, self._slants(one))
                 case Angle():
@@ -330,10 +332,11 @@ class _Layout:
             return self.ink.holds(place.all_lines, place.text.box)
         return self.ink.holds([*place.all_lines, *framed.stub], place.text.box) and self.ink.holds([], framed.room)
 
-    def _sizes(self, size: Size, coming: Sequence[complex]) -> Iterator[_Place]:
+    def _sizes(self, size: Size, coming: Sequence[complex], within: int) -> Iterator[_Place]:
         """Where a linear dimension may stand, in the rows of its side.
 
-        ``coming``: places from which extension lines will run to the same side.
+        ``coming``: places from which extension lines will run to the same side; ``within``: how many rows are left to
+        what will stand nearer.
         """
         edge = {
             "left": self.body.left, "right": self.body.right, "above": self.body.high, "below": self.body.low
@@ -341,7 +344,7 @@ class _Layout:
         out, ends = _OUTWARD[size.side], (self.paper.point(size.start), self.paper.point(size.end))
         first = _FIRST + self.free.get(size.side, 0.0)
         levels = [
-            _Level(out, ends, edge + (out.real + out.imag) * (first + _STEP * index), float(index), row)
+            _Level(out, ends, edge + (out.real + out.imag) * (first + _STEP * index), float(abs(index - within)), row)
             for index, row in enumerate(self.rows.setdefault(size.side, [[] for _ in range(ROWS)]))
         ]
         return self._linears(size, levels, coming)
@@ -695,6 +698,13 @@ def _meet(one: _Span, two: _Span) -> bool:
     if min(abs(one[0] - two[1]), abs(two[0] - one[1])) < 1e-6:
         return False
     return one[0] - 1 < two[1] and two[0] < one[1] + 1
+
+
+def _is_within(one: Size, other: Size) -> bool:
+    """Whether a size stands nearer to the view than another one over it."""
+    out = _OUTWARD[other.side]
+    (low, high), (left, right) = (sorted(_along(p, out) for p in (size.start, size.end)) for size in (one, other))
+    return one.value < other.value and low < right and left < high
 
 
 def _along(point: complex, out: complex) -> float:

@@ -166,3 +166,17 @@ def test_a_runout_that_nothing_drawn_has_is_refused_by_its_key(name: str, key: s
 def test_a_tolerance_stands_as_it_is_given_and_is_not_rounded_up(tmp_path: Path) -> None:
     dxf, _ = written(tmp_path, PARTS["helical"], drawing={"tip_runout": 0.0125, "face_runout": 0.0004})
     assert {"0.0125", "0.0004"} <= {text for text, _ in Read(dxf).words}
+
+
+def test_smaller_sizes_stand_nearer_where_one_had_to_be_placed_before_them(tmp_path: Path) -> None:
+    """GOST 2.307: the mark of the datum stood in the way of the mounting distance, which then took the first row."""
+    gear = PARTS["bevel"] | {"module": 10.0, "number_of_teeth": 90, "mate_number_of_teeth": 18, "face_width": 120.0,
+                             "profile_shift_coefficient": 0.0, "hub_diameter": 260.0, "hub_length": 80.0,
+                             "bore": {"shape": "round", "diameter": 150.0}}  # fmt: skip
+    dxf, _ = written(tmp_path, gear, drawing=RUNOUTS)
+    dimensions = Read(dxf).dimensions
+    low = min(p.imag for _, _, points, _ in dimensions for p in points)
+    below = sorted((value, line.imag) for value, _, points, line in dimensions
+                   if points[0].imag == points[1].imag and line.imag < low)  # fmt: skip
+    assert len(below) == 4
+    assert [y for _, y in below] == sorted((y for _, y in below), reverse=True)
