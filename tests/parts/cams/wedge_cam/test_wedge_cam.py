@@ -177,7 +177,8 @@ def test_solids_are_the_section_extruded() -> None:
     travel = np.linspace(0, cam.motion.travel, 40001)
     normal = 1j * cam.rate(travel)
     edge = cam.centre(travel) - cam.radius * normal / np.abs(normal)
-    area = float(np.trapezoid(edge.imag, edge.real)) + 10 * (15 + edge[-1].imag) - (4 - math.pi) * 4 - math.pi * 6.25
+    below = float(((edge.imag[1:] + edge.imag[:-1]) * np.diff(edge.real)).sum()) / 2
+    area = below + 10 * (15 + edge[-1].imag) - (4 - math.pi) * 4 - math.pi * 6.25
     assert mesh.volume == pytest.approx(area * 10, rel=2e-5)
 
 
