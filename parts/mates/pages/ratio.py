@@ -42,7 +42,8 @@ def sheet(keys: RatioKeys) -> Sheet:
         raise ParameterError("coaxial", True, "one_pair_coaxial", Nearest(False))
     found = _sets(keys, keys.ratio_tolerance_percent)
     if not found:
-        raise ParameterError("ratio", keys.ratio, "no_teeth_for_ratio", lambda: _near(keys))
+        code = "no_pair_for_ratio" if keys.stages == 1 else "no_teeth_for_ratio"
+        raise ParameterError("ratio", keys.ratio, code, lambda: _near(keys))
     page = Sheet(TOPIC, N_("Numbers of teeth for a ratio"))
     page.section("Wanted")
     page.add("wanted_ratio", keys.ratio, given=True, symbol="u_0", key="u_0")

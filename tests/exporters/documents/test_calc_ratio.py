@@ -75,7 +75,8 @@ def test_the_page_tells_the_fewest_teeth_and_355_of_113(capsys: pytest.CaptureFi
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("ratio=30",), "10 works"), (("ratio=3", "coaxial=true"), "coaxial = true: is for two stages; false works"),
+        (("ratio=30",), "stages = 2 has more of them; 10 works"), (("ratio=300", "stages=2"), "that ratio; 100 works"),
+        (("ratio=3", "coaxial=true"), "coaxial = true: is for two stages; false works"),
         (("ratio=1", "least_teeth=50", "most_teeth=20"), "at most 20 works"), ((), "ratio.ratio: is missing"),
     ],
 )  # fmt: skip
