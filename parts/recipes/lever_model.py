@@ -365,10 +365,14 @@ class _Making(Making):
             {"start": place(first, 0.0)[:2], "end": place(last, 0.0)[:2], "width": wide}
             for first, last, _ in self.guides
         ]
+        lengths = {"axle_3": ("O1O3", self.mechanism.frame_length), "axle_5": ("O3O5", self.mechanism.pivot_distance)}
+        found = [f"{name} {length:.6g}" for axle, (name, length) in lengths.items()
+                 if length is not None and any(one.name == axle for one in self.dowels)]  # fmt: skip
+        label = {"label": " ".join(found)} if found else {}
         self.part(
             "frame", kind="plate", face_width=self.thickness, width=float(right - left), height=float(high - low),
             centre=[(left + right) / 2, (low + high) / 2], corner_radius=_CORNER,
-            holes=[hole(at, self.axle_size) for at in axles], slots=slots,
+            holes=[hole(at, self.axle_size) for at in axles], slots=slots, **label,
         )  # fmt: skip
         self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -self.thickness], "held": True}
 

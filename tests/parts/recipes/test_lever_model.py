@@ -322,6 +322,39 @@ def test_what_cannot_be_cut_is_refused_by_its_key(
         assert main(["check", str(written(tmp_path, text_of(better[0], **better[1])))]) == 0
 
 
+@pytest.mark.parametrize("assignment", range(2, 11))
+def test_the_assignments_of_the_guidelines_can_be_cut(
+    assignment: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """At a crank of some 25 mm: the stroke is that of the machine, and it stands as that begins."""
+    assert main(["calc", "lever", f"assignment={assignment}", "variant=4", "--format", "json"]) == 0
+    machine = {one["name"]: one["value"] for one in json.loads(capsys.readouterr().out)["steps"]}
+    scale = round(machine["crank_length"] / 25, 3)
+    keys = f"assignment = {assignment}\nvariant = 4\nscale = {scale}\n"
+    file = written(tmp_path, f'[[assemblies]]\nkind = "lever_model"\n{keys}[[exports]]\nformat = "svg"\n')
+    assert main(["build", str(file), "--out", str(tmp_path), "-q", "--part", "crank"]) == 0
+    found = json.loads((tmp_path / "m" / "report.json").read_text("utf-8"))
+    told = found["parts"]["crank"]
+    assert ("slider_stroke" in told) == ("output_stroke" in machine)
+    if "output_stroke" in machine:
+        assert scale * told["slider_stroke"] == pytest.approx(machine["output_stroke"], rel=1e-6)
+    turn = found["instances"]["crank"]["rotation_deg"] - machine["crank_angle_deg"]
+    assert math.remainder(turn, 360) == pytest.approx(0, abs=1e-9)
+
+
+def test_an_assignment_whose_guide_goes_over_the_axle_of_the_crank_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The first: a rod that is offered, or the slider on the other side, is made."""
+    keys = '[[assemblies]]\nkind = "lever_model"\nassignment = 1\nscale = 4.0\n'
+    assert main(["check", str(written(tmp_path, keys))]) == 2
+    said = capsys.readouterr().err
+    found = re.search(r"assemblies\[1\].mechanism.rod_length = [\d.]+: .* at least ([\d.]+) mm works", said)
+    assert found
+    for more in (f"rod_length = {found[1]}", "second_side = -1"):
+        assert main(["check", str(written(tmp_path, f"{keys}[assemblies.mechanism]\n{more}\n"))]) == 0, more
+
+
 CRANK = """[parts.crank]
 kind = "lever_crank"
 mechanism = { first = "rods", crank_length = 25.0, frame_length = 80.0, coupler_length = 70.0, lever_length = 50.0 }
@@ -354,6 +387,37 @@ def test_links_of_another_mechanism_are_refused(
     capsys.readouterr()
     assert main(["check", str(written(tmp_path, CRANK.replace(old, new)))]) == 2
     assert said in capsys.readouterr().err
+
+
+BLOCK = """[parts.{part}]
+kind = "plate"
+width = 16.0
+height = 10.0
+face_width = 3.0
+[[mates]]
+kind = "lever_member"
+first = "crank"
+second = "{part}"
+member = "{part}"
+height = {height}
+"""
+
+
+def test_stones_and_sliders_stand_along_what_they_slide_on(tmp_path: Path) -> None:
+    """In a film, at 60 angles: the stone in A along its lever, the slider in D along its guide."""
+    table = ", ".join(f"{key} = {json.dumps(value)}" for key, value in SLOTTED.items())
+    text = f'[parts.crank]\nkind = "lever_crank"\nface_width = 3.0\nmechanism = {{ {table} }}\n'
+    text += "".join(BLOCK.format(part=part, height=height) for part, height in (("stone", 3.0), ("slider", 6.0)))
+    text += '[[drives]]\ninstance = "crank"\n[[exports]]\nformat = "motion"\n'
+    assert main(["build", str(written(tmp_path, text)), "--out", str(tmp_path), "-q"]) == 0
+    solved = Solved(SLOTTED)
+    for k in range(60):
+        lever = solved.turned(math.tau * k / 60)["slotted_lever"][1]
+        pin = cmath.rect(SLOTTED["crank_length"], math.tau * k / 60)
+        for part, place, turn in (("stone", pin, lever), ("slider", solved.output, 0.0)):
+            seen, angle = in_film(tmp_path / "m" / "m.motion.svg", part, k / 60)
+            assert abs(seen - place) < 0.03
+            assert abs(cmath.exp(1j * math.radians(angle)) - cmath.exp(1j * turn)) < 0.003
 
 
 @pytest.mark.parametrize("axis", [[1.0, -2.0, 2.0], [0.0, 0.0, -1.0]], ids=["askew", "turned over"])
