@@ -141,14 +141,17 @@ def laid(
 
 
 def _framed_sides(view: View) -> dict[Side, float]:
-    """What dimension lines leave free for frames of runouts that would stand across them: of a face on the left and of
-    what is round inside.
+    """What dimension lines leave free for frames of runouts that would stand across them: of what is round inside, of a
+    face beside sizes that span it.
     """
     found: dict[Side, float] = {}
-    for note in view.notes if any(note.datum for note in view.notes) else ():
+    for note in view.notes:
         inner = note.at.imag * note.free.imag < 0
-        if note.datum and (inner or note.free.real < 0):
-            found["right" if inner else "left"] = sum(_cells(note.text)) + 2 * _SHELF
+        side: Side = "right" if inner or note.free.real > 0 else "left"
+        spans = [(one.start.imag, one.end.imag) for one in view.sizes if one.side == side]
+        heights = [at.imag for at, _ in ((note.at, note.free), *note.also)]
+        if note.datum and (inner or (note.free.real and all(any(a < y < b for a, b in spans) for y in heights))):
+            found[side] = sum(_cells(note.text)) + 2 * _SHELF
     return found
 
 

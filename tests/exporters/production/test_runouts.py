@@ -105,6 +105,9 @@ def test_frames_point_at_what_runs_and_name_the_size_that_has_the_mark(
         if inner and name == "ring":
             # within the ring, before the line of its inner diameter
             assert edges[-1] < beside.real
+        if not inner and name == "face gear":
+            # before that of the inner diameter of its teeth, which spans the face
+            assert edges[-1] < sheet.sized(122.0)[2].real
         if inner:
             assert scale * abs(at.imag - axis) == pytest.approx(tip / 2, abs=1e-5)
             assert min(p.real for p in left) < at.real < max(p.real for p in left)
