@@ -23,6 +23,8 @@ _KNOT_PANELS = 32
 _COARSE_SAMPLES, _FINE_SAMPLES, _LEAST_BETWEEN_KNOTS = 17, 65, 4
 # distances found at once, few enough for the cache, and samples that a point is first held against
 _CACHED, _WINDOW = 30_000, 300
+# and those of samples to points when all of them are looked at; what a curve is longer than its chord
+_AT_ONCE, _BULGE = 1_000_000, 1.2
 # lines and arcs that cost less by their closed forms than by samples of all
 _FEW = 4
 # near a cusp the steps only halve the error, so the thorough pass takes many
@@ -198,8 +200,31 @@ def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex,
             if mine.size:
                 near = near[mine]
                 found = _projected(near, curve, t, _nearest_index(near, samples), newton=True)
+                if not isinstance(curve, Arc | Line):
+                    for block in np.array_split(np.arange(len(near)), math.ceil(len(near) * len(t) / _AT_ONCE)):
+                        found[block] = _on_other_branches(near[block], curve, t, samples, found[block])
                 best[mine] = np.minimum(best[mine], found)
     return best
+
+
+def _on_other_branches(points: Complex, curve: Curve, parameters: Real, samples: Complex, found: Real) -> Real:
+    """What is ``found`` from the nearest sample, or less.
+
+    Of a curve that comes back beside itself, or turns between samples far from each other, a piece that does not end at
+    that sample may be nearer: by half of its length than its nearer end at most. The distance falls at its start then
+    and rises at its end.
+    """
+    ways, spokes = curve.derivatives(parameters, 1)[1], points[:, None] - samples
+    gap, falls = np.abs(spokes), (np.conj(ways) * spokes).real
+    least = np.minimum(gap[:, :-1], gap[:, 1:]) - _BULGE / 2 * np.abs(np.diff(samples))
+    apart = gap.argmin(axis=1)[:, None] - np.arange(len(samples) - 1)
+    others = (falls[:, :-1] >= 0) & (falls[:, 1:] <= 0) & (least < found[:, None]) & (apart != 0) & (apart != 1)
+    row, piece = np.nonzero(others)
+    if row.size:
+        found = found.copy()
+        start = piece + (gap[row, piece + 1] < gap[row, piece])
+        np.minimum.at(found, row, _projected(points[row], curve, parameters, start, newton=True))
+    return found
 
 
 def _fine(curve: Curve) -> Real:

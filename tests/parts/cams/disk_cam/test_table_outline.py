@@ -10,6 +10,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+import shapely
 from numpy.typing import NDArray
 
 from exporters.command.cli import main
@@ -20,7 +21,7 @@ from geometry.cams.motion.follower_motion import dwell, follower_motion, motion_
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.curves import CentreEnvelope
 from geometry.laws.named import polynomial_345, sine
-from geometry.plane.measure import profile_area
+from geometry.plane.measure import distance_to_profile, profile_area
 from parts.scene.load import make_parts, scene_from_dict
 from tests.offered import cam, scenes
 
@@ -251,3 +252,27 @@ def test_a_file_of_a_wild_table_is_held_against_the_cam_itself(
     exact = float((np.conj(dense) * np.roll(dense, -1)).imag.sum() / 2)
     assert profile_area(outer) == pytest.approx(exact, rel=1e-6)
     assert build(plan, tmp_path / "o").well
+
+
+# under a point: between 270 and 304 degrees the cam turns between two samples of read-back, 1.7 mm from each other
+HAIRPIN = [
+    (0.0, 0.0), (24.84, 0.503), (75.57, 4.666), (86.66, 3.713), (140.68, 10.809), (144.28, 3.54), (181.71, 6.037),
+    (203.43, 6.592), (216.36, 11.379), (265.47, 1.183), (269.97, 7.214), (304.05, 6.099), (307.56, 8.815),
+    (330.22, 11.605), (342.4, 3.722),
+]  # fmt: skip
+
+
+def test_a_cam_that_turns_between_samples_is_as_far_from_itself_as_it_is(tmp_path: Path) -> None:
+    """Points of the outline lie on it; they were up to 0.78 mm off, from the nearest sample of another turn."""
+    keys = {"kind": "cam", "follower": "pointed", "base_circle_radius": 12.0, "motion_table": [[*r] for r in HAIRPIN]}
+    exports = [{"format": "dxf", "purpose": "drawing"}, {"format": "step"}]
+    scene = scene_from_dict({"parts": {"c": keys}, "exports": exports}, "t.toml", "t")
+    outline = make_parts(scene, "t.toml")[0]["c"].section(0.0).region.outer
+    places = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 40_001)) for s in outline.segments()])
+    assert distance_to_profile(places, outline).max() < 1e-9
+    # beside it a point is as far as from the lines between those
+    beside = places[::97] + 0.05j
+    lines = shapely.LineString(np.column_stack([places.real, places.imag]))
+    gaps = shapely.distance(shapely.points(np.column_stack([beside.real, beside.imag])), lines)
+    assert np.abs(distance_to_profile(beside, outline) - gaps).max() < 1e-5
+    assert build(plan_build(scene, "t.toml", [], []), tmp_path).well
