@@ -22,7 +22,7 @@ from parts.base.texts import ENGLISH, N_, NC_, Words, languages, words
 
 if TYPE_CHECKING:
     from exporters.production.plan import Plan
-    from parts.scene.load import SceneFile
+    from parts.scene.scene_file import SceneFile
 
 DONE, FAILED = 0, 1
 # so many things are made between two searches for circles of them

@@ -37,7 +37,8 @@ from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import built_in_scenes
-from parts.scene.load import PLAIN, ExportSpec, SceneInfo, plain_tables
+from parts.scene.load import PLAIN, plain_tables
+from parts.scene.scene_file import ExportSpec, SceneInfo
 
 # parts of the scene: a spur gear, the part that another is made from, a second one of a kind; others by their kind
 _GEAR, _SOURCE, _OTHER = "gear", "source", "wheel"

@@ -23,7 +23,7 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.scene.formats import FileKind
-from parts.scene.load import ExportSpec
+from parts.scene.scene_file import ExportSpec
 
 if TYPE_CHECKING:
     from exporters.formats.threemf import MeshPart

@@ -27,7 +27,7 @@ from geometry.plane.profile import Profile, Region
 from parts.base.refusal import SceneError
 from parts.keys.boards import BoardSpec
 from parts.scene.boards import parts_of_board, pieces_of
-from parts.scene.load import ExportSpec
+from parts.scene.scene_file import ExportSpec
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

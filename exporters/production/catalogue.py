@@ -30,7 +30,8 @@ from exporters.production.plan import plan_build
 from exporters.production.report import whole_report
 from parts.base.refusal import SceneError, explained
 from parts.base.texts import words
-from parts.scene.load import SceneFile, resolved, scene_from_resolved
+from parts.scene.load import resolved, scene_from_resolved
+from parts.scene.scene_file import SceneFile
 from parts.scene.variants import Axis, Variant, variants
 
 OK, FAILED, REFUSED = "ok", "failed", "refused"

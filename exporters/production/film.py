@@ -17,9 +17,9 @@ from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.base.part import Part
 from parts.base.texts import N_, unless
-from parts.scene.load import ExportSpec
 from parts.scene.placing import PlacedMate
 from parts.scene.relative_path import Course, common_period, course_of
+from parts.scene.scene_file import ExportSpec
 from parts.scene.shapes import shape_of
 from parts.scene.standing import Instance
 

@@ -16,7 +16,7 @@ from geometry.base.findings import Finding
 from geometry.base.record import Record, field, replace
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from parts.scene.formats import Form
-from parts.scene.load import ExportSpec
+from parts.scene.scene_file import ExportSpec
 from parts.scene.standing import Instance
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from parts.base.texts import N_, fault, in_context, unless, words
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.parts_list import SECTIONS, ListRow, list_sheets
-from parts.scene.load import ExportSpec
 from parts.scene.parts_list import list_rows
+from parts.scene.scene_file import ExportSpec
 
 # the columns, with what stands in them
 _HEADS = (

@@ -18,8 +18,9 @@ from parts.base.texts import N_, Message, Text, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.keys.sheet import on_sheet
 from parts.scene.formats import FORMATS, OF_SCENES, Form
-from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
+from parts.scene.load import in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
+from parts.scene.scene_file import ExportSpec, SceneFile, default_export
 
 if TYPE_CHECKING:
     from exporters.production.boards import BoardJob

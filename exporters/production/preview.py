@@ -24,7 +24,7 @@ from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import Words, words
 from parts.drawing.names import caption_name
-from parts.scene.load import SceneFile
+from parts.scene.scene_file import SceneFile
 from parts.scene.standing import UPWARDS, Instance
 from parts.texts.checks import in_rows
 from parts.texts.findings import finding_text

@@ -20,8 +20,9 @@ from parts.base.refusal import SceneError
 from parts.base.texts import Message, fault
 from parts.keys.sheet import on_sheet
 from parts.scene.formats import OF_SCENES, Form, file_kind
-from parts.scene.load import SceneFile, make_parts, scene_from_resolved
+from parts.scene.load import make_parts, scene_from_resolved
 from parts.scene.placing import place
+from parts.scene.scene_file import SceneFile
 from parts.solids.kernel import has_kernel
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from parts.base.part import Part
 from parts.base.refusal import SceneError, explained, placed
 from parts.base.schema import value_at
 from parts.scene.formats import Form
-from parts.scene.load import ExportSpec, SceneFile
 from parts.scene.placing import Placing
+from parts.scene.scene_file import ExportSpec, SceneFile
 
 # so near to the last offset that holds a search of costly solids may end, part of it
 _SHARE = 8e-4

@@ -44,7 +44,7 @@ from parts.keys.sheet import WORKING
 from parts.keys.title import TitleBlockTable
 from parts.mates.sheets.meshing import Facts, meshing_canvas
 from parts.mates.worm import WormMating
-from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.scene_file import ExportSpec, SceneFile
 from parts.texts.sheets import sheet_words
 
 # by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1; on wheels that are

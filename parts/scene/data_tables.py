@@ -11,7 +11,7 @@ from parts.pages.data_table import DataTable, Mated
 from parts.scene.placing import Placing
 
 if TYPE_CHECKING:
-    from parts.scene.load import SceneFile
+    from parts.scene.scene_file import SceneFile
 
 # what rolls on each other about axes that meet, or about one axis alone
 _WITHOUT_DISTANCE = ("bevel", "rack")

@@ -16,7 +16,7 @@ from parts.recipes.registry import RECIPES
 from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.language import WORDS, WORDS_OF_PARTS
-from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
+from parts.scene.scene_file import ChecksSpec, ExportSpec, SceneInfo
 from parts.scene.steps import StepSpec
 
 

@@ -12,7 +12,7 @@ from parts.base.part import Part
 from parts.scene.boards import cut_from
 
 if TYPE_CHECKING:
-    from parts.scene.load import SceneFile
+    from parts.scene.scene_file import SceneFile
 
 # exports whose files are a machine's: what they hold is not cut by hand
 _MACHINES = ("laser", "board", "print", "plate")

@@ -12,7 +12,7 @@ from parts.mates.pages.train_model import ACROSS
 if TYPE_CHECKING:
     from geometry.base.placement import Vector
     from geometry.kinematics.mechanism import Mechanism, Rolling
-    from parts.scene.load import SceneFile
+    from parts.scene.scene_file import SceneFile
 
 __all__ = ["TrainKeys", "sheet", "table_from"]
 _KINDS = ("external", "internal", "bevel")

@@ -14,7 +14,8 @@ from typing import Any
 from geometry.base.record import Record
 from parts.base.refusal import SceneError, meant
 from parts.pages.inputs import toml_value
-from parts.scene.load import SceneFile, resolved, scene_from_resolved
+from parts.scene.load import resolved, scene_from_resolved
+from parts.scene.scene_file import SceneFile
 
 # where refusals of the command line stand
 PLACE = "--vary"

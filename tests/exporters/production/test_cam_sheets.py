@@ -20,7 +20,8 @@ from exporters.production.sheets import SheetJob
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
 from parts.drawing.canvas import standard_scale
-from parts.scene.load import SceneFile, load_scene, scene_from_dict
+from parts.scene.load import load_scene, scene_from_dict
+from parts.scene.scene_file import SceneFile
 from tests.exporters.making import run
 from tests.sampling import some_of
 

@@ -17,7 +17,8 @@ from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.base.registry import KINDS
 from parts.scene.files import built_in_scenes
-from parts.scene.load import ExportSpec, load_scene, scene_from_dict
+from parts.scene.load import load_scene, scene_from_dict
+from parts.scene.scene_file import ExportSpec
 from tests.exporters.production.test_part_drawings import PARTS, jobs
 from tests.exporters.production.test_sheet_words import faults
 

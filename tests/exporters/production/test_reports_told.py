@@ -12,7 +12,8 @@ import pytest
 
 from exporters.production import report
 from exporters.production.plan import Plan, plan_build
-from parts.scene.load import SceneFile, resolved, scene_from_toml
+from parts.scene.load import resolved, scene_from_toml
+from parts.scene.scene_file import SceneFile
 
 SCENE = """
 [parts.slab]

@@ -17,8 +17,9 @@ from exporters.production.plan import plan_build
 from geometry.solids.area import surface_area
 from parts.base.refusal import SceneError
 from parts.scene.interference import solid_overlaps
-from parts.scene.load import ExportSpec, load_scene, make_parts
+from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
+from parts.scene.scene_file import ExportSpec
 from parts.solids.kernel import KernelError, edges_of, has_kernel, kernel_errors, silent_kernel, solids_of
 
 pytestmark = pytest.mark.skipif(not has_kernel(), reason="the CAD kernel is an extra")

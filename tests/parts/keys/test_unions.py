@@ -12,7 +12,7 @@ from parts.keys.boards import BedSpec, BoardSpec
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.instances import DriveSpec, InstanceTable
-from parts.scene.load import ChecksSpec, ExportSpec, SceneInfo
+from parts.scene.scene_file import ChecksSpec, ExportSpec, SceneInfo
 
 COLLECTIONS = types.DictType | types.ListType | types.VarTupleType | types.TupleType
 

@@ -22,8 +22,9 @@ from geometry.approximation.chords import approximate_profile
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.files import built_in_scenes
-from parts.scene.load import SceneFile, in_keys_of_file, load_scene, make_parts, resolved, scene_from_dict
+from parts.scene.load import in_keys_of_file, load_scene, make_parts, resolved, scene_from_dict
 from parts.scene.placing import place
+from parts.scene.scene_file import SceneFile
 
 SETS = (
     "james", "david", "one_external_one_internal", "two_internal", "differential", "ferguson", "compound_two_stage",

@@ -20,7 +20,8 @@ from parts.bodies.layered import Layered
 from parts.gears.worm.part import WORM
 from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys, checked_sizes
-from parts.scene.load import SceneFile, scene_from_dict
+from parts.scene.load import scene_from_dict
+from parts.scene.scene_file import SceneFile
 from tests.oracles.clearances import overlaps
 from tests.parts.recipes.test_power_table import placed
 from tests.sampling import some_of

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from parts.scene.load import SceneFile
+from parts.scene.scene_file import SceneFile
 from tests.oracles.clearances import solid_of
 from tests.oracles.contacts import Contacts
 from tests.parts.recipes.test_power_module import module

@@ -16,7 +16,8 @@ from exporters.formats.read_step import read_step_assembly
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.base.texts import told_in
-from parts.scene.load import SceneFile, scene_from_dict
+from parts.scene.load import scene_from_dict
+from parts.scene.scene_file import SceneFile
 from tests.parts.recipes.test_power_table import placed, runs, struck
 from tests.sampling import some_of
 

@@ -18,8 +18,9 @@ from geometry.approximation.chords import approximate_profile
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.scene.interference import by_contact, solid_overlaps
-from parts.scene.load import SceneFile, in_keys_of_file, load_scene, make_parts, scene_from_dict
+from parts.scene.load import in_keys_of_file, load_scene, make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
+from parts.scene.scene_file import SceneFile
 from parts.scene.shapes import Shape
 from parts.scene.workspace import workspace_found
 from tests.sampling import some_of

@@ -12,7 +12,8 @@ import pytest
 from exporters.command.cli import main
 from parts.base.refusal import SceneError
 from parts.scene.files import built_in_scenes
-from parts.scene.load import SceneFile, load_scene, resolved, scene_from_dict
+from parts.scene.load import load_scene, resolved, scene_from_dict
+from parts.scene.scene_file import SceneFile
 
 WHEEL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
 

@@ -15,8 +15,9 @@ from exporters.command.cli import main
 from exporters.production.check import check_pair
 from geometry.base.record import replace
 from parts.scene.interference import solid_overlaps
-from parts.scene.load import SceneFile, make_parts, scene_from_dict
+from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
+from parts.scene.scene_file import SceneFile
 from tests.exporters.making import table
 
 # a race of radius 4 at 56 from the axis, its screw holes 14 farther out

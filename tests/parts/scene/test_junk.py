@@ -20,7 +20,8 @@ from geometry.base.errors import GeometryError
 from parts.base.refusal import SceneError
 from parts.base.schema import plain_numbers
 from parts.gears.spur_gear.part import RackTable, ReliefTable, SpurGearSpec
-from parts.scene.load import ExportSpec, SceneInfo, scene_from_dict, scene_from_resolved, scene_from_toml
+from parts.scene.load import scene_from_dict, scene_from_resolved, scene_from_toml
+from parts.scene.scene_file import ExportSpec, SceneInfo
 from tests.sampling import examples
 
 # long enough for any machine under load; what hangs takes for ever

@@ -7,7 +7,8 @@ from decimal import Decimal
 import pytest
 
 from parts.base.refusal import SceneError
-from parts.scene.load import SceneFile, scene_from_dict
+from parts.scene.load import scene_from_dict
+from parts.scene.scene_file import SceneFile
 from parts.scene.variants import axes_of, variants
 from tests.exporters.making import part_keys
 from tests.exporters.outside import Gear
