@@ -61,7 +61,7 @@ _SPEAKING = (
     "lesson_*", "*_coupon", "print_*", "power_table_print", "practicum_pair", "practicum_*_cam", "bevel_*",
     "laser_gear*", "crossed_helical_pair", "working_drawings", "idler_train", "clock_gears", "shaft_set",
     "geneva_drive", "chain_drive", "belt_drive", "oval_gears", "linkage_cam", "barrel_cam", "groove_cam",
-    "yoke_cam", "wedge_cam", "contour_cams",
+    "yoke_cam", "wedge_cam", "contour_cams", "six_link_model",
     "spline_joint", "conjugate_cams", "lantern_pair",
 )  # fmt: skip
 # argparse asks gettext for these, which would look for the terminal's language in the system's catalogues

@@ -118,7 +118,7 @@ class Solved:
             return False
         if keys["first"] == "rods" and ((self.pivot - a) / (b - a)).imag * keys.get("first_side", 1) < 0:
             return False
-        if keys["first"] == "slider" and ((b - a) / self.way).real < 0:
+        if keys["first"] == "slider" and ((b - a) / self.way).real * keys.get("second_side", 1) < 0:
             return False
         if len(x) == 2:
             return True
