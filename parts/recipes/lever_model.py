@@ -50,8 +50,8 @@ _WALL, _APART, _SLACK, _SHORT, _BESIDE, _CORNER, _RING = 2.0, 1.0, 1.0, 0.5, 10.
 _SAME = 1e-9
 # positions of the crank in which links of a layer are held apart
 _SAMPLES = 720
-# of what is given, tried where links meet, nearest first: of widths, of lengths
-_NARROWER, _LONGER = (0.9, 0.75, 0.6, 0.45, 0.3), (1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 4.0, 0.95, 0.9, 0.75)
+# of what is given, tried where it is refused, nearest first: of a width or a scale, of lengths
+_SMALLER, _LONGER = (0.9, 0.75, 0.6, 0.45, 0.3, 0.1, 0.03), (1.05, 1.1, 1.25, 1.5, 2.0, 3.0, 4.0, 0.95, 0.9, 0.75)
 _CRANK_ROCKER = {
     "first": "rods", "crank_length": 25.0, "frame_length": 80.0, "coupler_length": 70.0, "lever_length": 50.0,
 }  # fmt: skip
@@ -226,12 +226,13 @@ class _Making(Making):
 
         def sought() -> ParameterError:
             found = []
-            for name in dict.fromkeys(names):
+            # at another scale all lengths are others
+            for name in dict.fromkeys([*names, *(["scale"] if self.keys.scale != 1 else [])]):
                 given = value_at(self.keys, name)
                 if given is None:
                     # of the assignment
                     given = getattr(self.machine, name.rpartition(".")[2])
-                shares = _NARROWER if name == "link_width" else _LONGER
+                shares = _LONGER if name.startswith("mechanism") else _SMALLER
                 cure = nearest(partial(works, name), given, [given * share for share in shares])
                 found.append(ParameterError(name, given, code, cure, **numbers))
             return next((one for one in found if one.nearest is not None), found[0])

@@ -6,7 +6,7 @@ What a step brings comes with all that earlier steps have joined to it, and is j
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
@@ -16,6 +16,9 @@ from parts.base.refusal import REMOVED, SceneError
 from parts.base.schema import converted
 from parts.keys.base import mm
 from parts.scene.instances import Group, InstanceSpec, check_instance
+
+if TYPE_CHECKING:
+    from parts.base.mate import MateKeys
 
 _BRING = Meta(
     min_length=1,
@@ -66,9 +69,9 @@ class Stage(Record):
 
 def step_specs(
     raw: Sequence[object], parts: Mapping[str, Struct], instances: dict[str, InstanceSpec],
-    groups: Mapping[str, Group], source: str,
+    groups: Mapping[str, Group], mates: Sequence[MateKeys], source: str,
 ) -> list[StepSpec]:  # fmt: skip
-    """The steps of a scene, their groups told out.
+    """The steps of a scene, their groups told out; two models that no mate joins are put together each by itself.
 
     Raises
     ------
@@ -97,15 +100,15 @@ def step_specs(
         found.append(replace(spec, bring=brought))
     if not found:
         return found
-    last = 0
+    whole = {key: {key} for key in instances}
     for number, stage in enumerate(stages(found, instances), 1):
         if stage.step.to in stage.moved:
             told = {"to": stage.step.to}
             raise SceneError(source, f"steps[{number}].bring", stage.step.bring, "joined_before", None, "", **told)
-        last = len(stage.moved) + len(stage.standing)
-    if last < len(instances):
-        *_, stage = stages(found, instances)
-        left = [key for key in instances if key not in {*stage.moved, *stage.standing}]
+        whole |= dict.fromkeys((together := {*stage.moved, *stage.standing}), together)
+    left = [key for key, one in whole.items() if len(one) == 1]
+    if left or any(mate.second not in whole[mate.first] for mate in mates):
+        left = left or [key for key in instances if key not in together]
         raise SceneError(source, "steps", len(found), "never_brought", None, "", left=left[:10])
     return found
 

@@ -389,6 +389,27 @@ def test_links_of_another_mechanism_are_refused(
     assert said in capsys.readouterr().err
 
 
+def test_a_scale_at_which_links_are_too_short_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """By the scale, which alone cures it; what is offered is made."""
+    keys = '[[assemblies]]\nkind = "lever_model"\nassignment = 4\nscale = {}\n'
+    assert main(["check", str(written(tmp_path, keys.format(200.0)))]) == 2
+    found = re.search(r"assemblies\[1\].scale = 200.0: .* at most ([\d.]+) works", capsys.readouterr().err)
+    assert found
+    assert main(["check", str(written(tmp_path, keys.format(found[1])))]) == 0
+
+
+def test_two_models_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Each is put together by itself; a pin that nothing brings in is named."""
+    text = text_of(CRANK_SLIDER, name="one") + text_of(SLOTTED, name="two")
+    text += "[instances.two_frame]\nat = [0.0, 200.0, -3.0]\n[checks]\ninterference = true\n"
+    assert main(["check", str(written(tmp_path, text))]) == 0
+    said = capsys.readouterr().out
+    assert "order of assembly, 17 steps: each part reaches its place straight" in said
+    pin = '[instances.pin]\npart = "one_pin_a"\n[[mates]]\nkind = "fixed"\nfirst = "one_frame"\nsecond = "pin"\n'
+    assert main(["check", str(written(tmp_path, text + pin + "offset = [0.0, -13.0, 3.0]\n"))]) == 2
+    assert "leave pin apart" in capsys.readouterr().err
+
+
 BLOCK = """[parts.{part}]
 kind = "plate"
 width = 16.0
