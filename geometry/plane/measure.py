@@ -21,6 +21,8 @@ _GAUSS_PANELS = 4
 # where one formula gives way to the next no panel is longer than such a part of the whole
 _KNOT_PANELS = 32
 _COARSE_SAMPLES, _FINE_SAMPLES, _LEAST_BETWEEN_KNOTS = 17, 65, 4
+# by how much such a curve turns between fine samples at most, rad, unless that takes more halvings
+_MOST_TURN, _HALVINGS = 0.5, 6
 # distances found at once, few enough for the cache, and samples that a point is first held against
 _CACHED, _WINDOW = 30_000, 300
 # and those of samples to points when all of them are looked at; what a curve is longer than its chord
@@ -212,29 +214,41 @@ def _on_other_branches(points: Complex, curve: Curve, parameters: Real, samples:
 
     Of a curve that comes back beside itself, or turns between samples far from each other, a piece that does not end at
     that sample may be nearer: by half of its length than its nearer end at most. The distance falls at its start then
-    and rises at its end.
+    and rises at its end. One that ends there is asked again, from its other end, where steps from there led nowhere.
     """
     ways, spokes = curve.derivatives(parameters, 1)[1], points[:, None] - samples
     gap, falls = np.abs(spokes), (np.conj(ways) * spokes).real
     least = np.minimum(gap[:, :-1], gap[:, 1:]) - _BULGE / 2 * np.abs(np.diff(samples))
     apart = gap.argmin(axis=1)[:, None] - np.arange(len(samples) - 1)
-    others = (falls[:, :-1] >= 0) & (falls[:, 1:] <= 0) & (least < found[:, None]) & (apart != 0) & (apart != 1)
-    row, piece = np.nonzero(others)
+    others = ((apart != 0) & (apart != 1)) | (found >= gap.min(axis=1))[:, None]
+    row, piece = np.nonzero((falls[:, :-1] >= 0) & (falls[:, 1:] <= 0) & (least < found[:, None]) & others)
     if row.size:
         found = found.copy()
-        start = piece + (gap[row, piece + 1] < gap[row, piece])
+        beside = apart[row, piece]
+        nearer = gap[row, piece + 1] < gap[row, piece]
+        start = piece + np.where(beside == 0, True, np.where(beside == 1, False, nearer))
         np.minimum.at(found, row, _projected(points[row], curve, parameters, start, newton=True))
     return found
 
 
 def _fine(curve: Curve) -> Real:
-    """Parameters of fine samples: evenly, and so many between knots too, which may lie near each other."""
+    """Parameters of fine samples: evenly, and so many between knots too, which may lie near each other.
+
+    Between those a curve with knots turns little: where it turns more there are further ones.
+    """
     even = np.linspace(*curve.domain, _FINE_SAMPLES)
     if not curve.knots.size:
         return even
     edges = np.array([even[0], *curve.knots, even[-1]])
     each = max(_LEAST_BETWEEN_KNOTS, _FINE_SAMPLES // (len(edges) - 1))
-    return np.unique(np.append(even, edges[:-1, None] + np.diff(edges)[:, None] * (np.arange(each) / each)))
+    t = np.unique(np.append(even, edges[:-1, None] + np.diff(edges)[:, None] * (np.arange(each) / each)))
+    for _ in range(_HALVINGS):
+        ways = curve.tangent(t)
+        turns = np.flatnonzero(np.abs(np.angle(ways[1:] * np.conj(ways[:-1]))) > _MOST_TURN)
+        if not turns.size:
+            break
+        t = np.insert(t, turns + 1, (t[turns] + t[turns + 1]) / 2)
+    return t
 
 
 def _folded(points: Complex, profile: Profile) -> Complex:

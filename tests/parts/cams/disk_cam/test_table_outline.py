@@ -276,3 +276,61 @@ def test_a_cam_that_turns_between_samples_is_as_far_from_itself_as_it_is(tmp_pat
     gaps = shapely.distance(shapely.points(np.column_stack([beside.real, beside.imag])), lines)
     assert np.abs(distance_to_profile(beside, outline) - gaps).max() < 1e-5
     assert build(plan_build(scene, "t.toml", [], []), tmp_path).well
+
+
+# others: a slow turn between even samples, a tip from which steps lead nowhere
+WILD = [
+    (
+        "mushroom",
+        3.0,
+        12.0,
+        [
+            (0.0, 0.0),
+            (34.97, 0.738),
+            (75.97, 8.908),
+            (102.73, 9.136),
+            (125.1, 4.529),
+            (139.83, 3.721),
+            (171.58, 8.042),
+            (179.12, 10.401),
+            (246.66, 8.473),
+            (278.14, 6.969),
+            (313.97, 0.157),
+            (320.22, 10.523),
+        ],
+    ),
+    (
+        "mushroom",
+        1.0,
+        20.0,
+        [
+            (0.0, 0.0),
+            (18.3, 0.797),
+            (28.32, 2.628),
+            (57.08, 2.96),
+            (95.1, 3.173),
+            (166.38, 4.065),
+            (174.11, 5.258),
+            (184.85, 3.213),
+            (194.03, 3.287),
+            (201.0, 1.065),
+            (236.42, 2.259),
+            (313.99, 1.842),
+            (323.41, 4.225),
+            (328.48, 0.756),
+            (350.95, 2.84),
+        ],
+    ),
+]
+
+
+@pytest.mark.parametrize(("follower", "radius", "base", "rows"), WILD)
+def test_outlines_of_wild_tables_lie_on_themselves(
+    follower: str, radius: float | None, base: float, rows: list[tuple[float, float]]
+) -> None:
+    keys = {"kind": "cam", "follower": follower, "base_circle_radius": base, "motion_table": [[*r] for r in rows]}
+    keys |= {} if radius is None else {"follower_radius": radius}
+    scene = scene_from_dict({"parts": {"c": keys}, "exports": [{"format": "svg"}]}, "t.toml", "t")
+    outline = make_parts(scene, "t.toml")[0]["c"].section(0.0).region.outer
+    places = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 40_001)) for s in outline.segments()])
+    assert distance_to_profile(places, outline).max() < 1e-9
