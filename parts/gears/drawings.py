@@ -72,8 +72,10 @@ _LEAST_SECTION = 20.0
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
+    from geometry.gears.teeth.rack_holes import RackHoles
     from geometry.gears.worms.body import WormBody
     from geometry.gears.worms.worm import Worm
+    from parts.keys.working import WorkingTable
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -204,19 +206,6 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         Size("first_tooth", complex(-half, root), first + 1j * tip, "above"),
     ]
     axes = Line(complex(-half), complex(half)), Line(first + 1j * root, first + 1j * tip)
-    rounds = []
-    if rack.holes is not None:
-        holes, y = rack.holes, root - rack.holes.depth
-        centres = [complex((k - (holes.count - 1) / 2) * holes.spacing, y) for k in range(holes.count)]
-        strokes += [(VISIBLE, circle_of(holes.diameter / 2, centre)) for centre in centres]
-        sizes.append(Size("holes.depth", complex(-half, foot), centres[0], "left"))
-        if len(centres) > 1:
-            sizes.append(Size("holes.spacing", centres[0], centres[1], "below"))
-        if len(centres) > 2:
-            chain = f"{holes.count - 1}×{subject.say(holes.spacing)}="
-            sizes.append(Size("holes.all", centres[0], centres[-1], "below", chain))
-        sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
-        rounds.append(hole_round("holes.diameter", centres, holes.diameter / 2, subject))
     rough = Note(complex(half), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
     cut = Cut(half - pitch / 2, subject.letter())
     notes = [rough]
@@ -230,26 +219,48 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
             corners = [complex(end, foot), complex(end + aslant, foot), complex(end + aslant, root), complex(end, root)]
             seen = VISIBLE if end * aslant > 0 else HIDDEN
             strokes += [(seen, Line(a, b)) for a, b in pairwise(corners)]
-    front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), tuple(notes), cuts=(cut,))
-    width = keys.face_width
-    whole = block(0.0, width, foot, tip)
-    solid = block(0.0, width, foot, root)
-    section = View(
-        (*((VISIBLE, line) for line in whole), (VISIBLE, Line(complex(0, root), complex(width, root)))),
-        (solid,),
+    front = View(tuple(strokes), (), axes, tuple(sizes), notes=tuple(notes), cuts=(cut,))
+    if rack.holes is not None:
+        front = _with_holes(front, rack.holes, complex(-half, foot), root - rack.holes.depth, subject)
+    section = _rack_section(keys.face_width, (foot, root, tip), cut.letter, wishes)
+    tips = sorted({round(p.real, 9) for c in kept for p in (start_point(c), end_point(c)) if abs(p.imag - tip) < 1e-6})
+    views = (front, *([_rack_top(half, tips, line, subject.letter(1), at)] if aslant else []))
+    front, *others = views if at is None else (broken(view, at) for view in views)
+    return front, section, *others
+
+
+def _with_holes(front: View, holes: RackHoles, corner: complex, height: float, subject: Subject) -> View:
+    """The front view of a rack with its holes, at a ``height``, told from its left lower ``corner``."""
+    centres = [complex((k - (holes.count - 1) / 2) * holes.spacing, height) for k in range(holes.count)]
+    sizes = [Size("holes.depth", corner, centres[0], "left")]
+    if len(centres) > 1:
+        sizes.append(Size("holes.spacing", centres[0], centres[1], "below"))
+    if len(centres) > 2:
+        chain = f"{holes.count - 1}×{subject.say(holes.spacing)}="
+        sizes.append(Size("holes.all", centres[0], centres[-1], "below", chain))
+    sizes.append(Size("holes.first", corner, centres[0], "below"))
+    return front.plus(
+        strokes=[(VISIBLE, circle_of(holes.diameter / 2, centre)) for centre in centres], sizes=sizes,
+        rounds=[hole_round("holes.diameter", centres, holes.diameter / 2, subject)],
+    )  # fmt: skip
+
+
+def _rack_section(width: float, levels: tuple[float, float, float], letter: str, wishes: WorkingTable) -> View:
+    """A rack cut across; ``levels``: of its foot, the roots and the tips, mm over the datum line."""
+    foot, root, tip = levels
+    return View(
+        (*((VISIBLE, line) for line in block(0.0, width, foot, tip)),
+         (VISIBLE, Line(complex(0, root), complex(width, root)))),
+        (block(0.0, width, foot, root),),
         (Line(0j, complex(width)),),
         (
             Size("face_width", complex(0, foot), complex(width, foot), "below", "", wishes.width),
             Size("height", complex(width, foot), complex(width, tip), "right", "", wishes.tip),
             Size("datum_height", complex(0, foot), 0j, "left"),
         ),
-        title=f"{cut.letter}-{cut.letter}",
+        title=f"{letter}-{letter}",
         least=_LEAST_SECTION,
-    )
-    tips = sorted({round(p.real, 9) for c in kept for p in (start_point(c), end_point(c)) if abs(p.imag - tip) < 1e-6})
-    views = (front, *([_rack_top(half, tips, line, subject.letter(1), at)] if aslant else []))
-    front, *others = views if at is None else (broken(view, at) for view in views)
-    return front, section, *others
+    )  # fmt: skip
 
 
 def _rack_break(rack: Rack, shown: float, least: float) -> Break | None:

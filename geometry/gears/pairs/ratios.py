@@ -21,8 +21,8 @@ def teeth_for(
     """Numbers of teeth (z1, z2) or (z1, z2, z3, z4), the fewest in all first, each set nearer than all with fewer.
 
     z2 / z1, times z4 / z3, is off the ratio by at most that ``share``; every number is from ``least`` to ``most``, and
-    no stage goes against the ratio; the last wheel has the number nearest to what the others ask for. ``coaxial``:
-    z1 + z2 = z3 + z4, the last shaft in line with the first.
+    no stage goes against the ratio; the last wheel has the number nearest to what the others ask for, or that of
+    z1 + z2 = z3 + z4 where the last shaft stands in line with the first, ``coaxial``.
     """
     up = float(max(ratio, 1 / ratio))
     found = [_pairs(up, least, most)] if stages == 1 else [*_double(up, least, most, share, coaxial)]
@@ -53,9 +53,7 @@ def _double(ratio: float, least: int, most: int, share: float, coaxial: bool) ->
     """Two stages, the lesser ratio first, for each first number of teeth."""
     second, third = np.meshgrid(np.arange(least, most + 1), np.arange(least, most + 1), indexing="ij")
     for first in range(least, most + 1):
-        fourth = _nearest(ratio * first * third / second, least, most)
+        fourth = first + second - third if coaxial else _nearest(ratio * first * third / second, least, most)
         kept = np.abs(second * fourth / (ratio * first * third) - 1) <= share + _NONE
-        kept &= (second >= first) & (second * third <= fourth * first)
-        if coaxial:
-            kept &= first + second == third + fourth
+        kept &= (second >= first) & (second * third <= fourth * first) & (fourth <= most)
         yield np.stack([np.full_like(second, first)[kept], second[kept], third[kept], fourth[kept]], axis=1)

@@ -114,7 +114,7 @@ def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift:
 
 def _table(found: list[Match]) -> Table:
     rows = [(math.degrees(m.pressure_angle), m.module, INCH / m.module, 100 * m.deviation) for m in found[:_ROWS]]
-    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("δ", "%"))
+    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("Δ", "%"))
     return table_of("modules", N_("Pressure angles and modules, what fits first"), heads, rows)
 
 

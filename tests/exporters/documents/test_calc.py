@@ -341,15 +341,8 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(words)
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= {
-        "cam": 4,
-        "pulley": 2,
-        "planetary": 4,
-        "involute": 0,
-        "spline": 3,
-        "thread": 8,
-        "ratio": 3,
-    }.get(words[0], 8)
+    few = {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3, "thread": 8, "ratio": 3}
+    assert len(checked) >= few.get(words[0], 8)
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 
@@ -396,6 +389,7 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     # one mark in all that people read
     mark = "," if language == "uk" else "."
     assert all(re.search(rf"\d{mark}\d", made[form]) for form in ("text", "md", "html"))
+    assert language == "uk" or not re.search(r"\d,\d", made["text"])
     assert made["md"].startswith(f"# {title}")
     assert f'<html lang="{language}">' in made["html"]
     # what is printed has the mark of its language, and true minus signs
@@ -408,7 +402,9 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     for note in map(told.phrase, map(told.say, sheet.notes)):
         assert note in made["text"]
         assert f"<li>{html.escape(note)}</li>" in made["html"]
-    for step, row in zip(sheet.steps(), re.findall(r"<tr><td>.*?</tr>", made["html"]), strict=False):
+    steps = list(sheet.steps())
+    # tables stand behind them
+    for step, row in zip(steps, re.findall(r"<tr><td>.*?</tr>", made["html"])[: len(steps)], strict=True):
         if not isinstance(step.value, str):
             result = html.unescape(re.findall(r'<td class="r">(.*?)</td>', row)[0])
             assert f"{result}\n" in made["text"]

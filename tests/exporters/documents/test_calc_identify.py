@@ -35,6 +35,20 @@ def test_the_gears_of_published_spans_are_found(
     assert (found["module"], found["pressure_angle_deg"]) == pytest.approx((3.0, 20.0), rel=1e-12)
     assert found["profile_shift_coefficient"] == pytest.approx(0.4, abs=1e-4)
     assert (found["addendum_coefficient"], found["dedendum_coefficient"]) == pytest.approx((1.0, 1.25), abs=1e-4)
+    # the faces touch at both ends of W, which leans by beta_b: sin beta_b = sin beta cos alpha_n
+    sine = math.sin(math.radians(helix)) * math.cos(math.radians(20))
+    alpha = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(helix)))
+    base = 72.0 / math.cos(math.radians(helix)) * math.cos(alpha)
+    touched = math.sqrt(base**2 + (span + 8.856) ** 2 * (1 - sine**2))
+    assert found["span_contact_diameter"] == pytest.approx(touched, rel=1e-9)
+
+
+def test_the_scene_that_is_told_has_the_span_that_was_measured(capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = spans_of(2.5, 20.0, 31, 0.2371, 4)
+    keys = {"number_of_teeth": 31, "teeth_spanned": 4, "span": first, "next_span": second}
+    (told,) = [note.partition(": ")[2] for note in identified(capsys, **keys)["notes"] if note.startswith("in a scene")]
+    assert run("calc", "spur", *told.replace(" = ", "=").split(", "), "teeth_spanned=4", "--format", "json") == 0
+    assert json.loads(capsys.readouterr().out)["values"]["span"] == pytest.approx(first, abs=1e-3)
 
 
 def spans_of(module: float, angle_deg: float, teeth: int, shift: float, spanned: int) -> list[float]:
@@ -64,6 +78,10 @@ def test_what_is_known_decides_and_what_fits_nothing_is_told(capsys: pytest.Capt
     first, second = spans_of(2.15, 20.0, 30, 0.0, 4)
     keys = {"number_of_teeth": 30, "teeth_spanned": 4, "span": first, "next_span": second}
     assert any("no module of a row" in note for note in identified(capsys, pressure_angle_deg=20, **keys)["notes"])
+    # 2.75 mm at 20 degrees are 2.797 at 22.5, near 25.4 / 9, and 2.984 at 30; 2 mm are near nothing at any other
+    several = [any("more than one fits" in note for note in identified(capsys, **keys | {"next_span": first + pitch})[
+        "notes"]) for pitch in (math.pi * math.cos(math.radians(20)) * m for m in (2.0, 2.75))]  # fmt: skip
+    assert several == [False, True]
     found = identified(capsys, module=2.15, **keys)["values"]
     assert found["pressure_angle_deg"] == pytest.approx(20.0, rel=1e-12)
     assert found["profile_shift_coefficient"] == pytest.approx(0.0, abs=1e-9)
