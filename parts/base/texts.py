@@ -25,7 +25,7 @@ DOMAIN = "higherpair"
 # of printed numbers: a hyphen is shorter
 MINUS = "\N{MINUS SIGN}"
 # numbers in words that name or type something: (3.4), fig. 3.9, tip_shortening_coefficient=0.145
-_NAMED = re.compile(r"(\(\d+\.\d+\)|[^\W\d]\. \d+\.\d+(?:\N{EN DASH}\d+\.\d+)?|[a-z]{2,}_[a-z_]+ ?= ?[-\d.]+)")
+_NAMED = re.compile(r"(\(\d+\.\d+\)|[^\W\d]\. \d+\.\d+(?:\N{EN DASH}\d+\.\d+)?|\b[a-z]{2}[a-z_]{2,} ?= ?[-\d.]+)")
 LOCALE = Path(__file__).parents[1] / "locale"
 # what plural rules say of a number with a fraction: that of a negative count, which no text has
 _FRACTION = -1

@@ -40,9 +40,10 @@ def sheet(keys: RatioKeys) -> Sheet:
         raise ParameterError("least_teeth", keys.least_teeth, "above_most_teeth", Nearest(keys.most_teeth, "at_most"))
     if keys.coaxial and keys.stages == 1:
         raise ParameterError("coaxial", True, "one_pair_coaxial", Nearest(False))
-    found = _sets(keys, keys.ratio_tolerance_percent)
+    found = _sets(keys, keys.ratio_tolerance_percent, keys.stages)
     if not found:
-        code = "no_pair_for_ratio" if keys.stages == 1 else "no_teeth_for_ratio"
+        two_have = keys.stages == 1 and _sets(keys, keys.ratio_tolerance_percent, 2)
+        code = "no_pair_for_ratio" if two_have else "no_teeth_for_ratio"
         raise ParameterError("ratio", keys.ratio, code, lambda: _near(keys))
     page = Sheet(TOPIC, N_("Numbers of teeth for a ratio"))
     page.section("Wanted")
@@ -72,14 +73,14 @@ def sheet(keys: RatioKeys) -> Sheet:
     return page
 
 
-def _sets(keys: RatioKeys, percent: float) -> list[tuple[int, ...]]:
+def _sets(keys: RatioKeys, percent: float, stages: int) -> list[tuple[int, ...]]:
     limits = keys.least_teeth, keys.most_teeth
-    return teeth_for(exact(keys.ratio), keys.stages, *limits, percent / 100, coaxial=keys.coaxial)
+    return teeth_for(exact(keys.ratio), stages, *limits, percent / 100, coaxial=keys.coaxial)
 
 
 def _near(keys: RatioKeys) -> Nearest | None:
     """The ratio nearest to the wanted one that has teeth."""
-    found = next((sets for percent in _NEAR if (sets := _sets(keys, percent))), None)
+    found = next((sets for percent in _NEAR if (sets := _sets(keys, percent, keys.stages))), None)
     return Nearest(_ratio(found[-1])) if found else None
 
 

@@ -298,7 +298,9 @@ def test_a_number_that_the_source_prints_rightly_is_not_flagged() -> None:
 
 
 def test_the_misprinted_inequality_and_left_side_are_named() -> None:
-    assert "x_min ≤ x ≤ x_0,3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    told = calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
+    assert "x_min ≤ x ≤ x_0,3" in told
+    assert "x = 0: табл. 1.1\n" in told
     page = calculate("tmm42", ["module=10", "number_of_teeth=10"], "html", "uk")
     assert '<td class="f">x<sub>0,3</sub></td>' in page
     assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import tomllib
 from typing import Any
 
 import pytest
@@ -118,3 +119,14 @@ def test_usual_gears_are_found_though_readings_are_off(module: float, teeth: int
     found = matches((second - first) * (1 + off), [math.radians(a) for a in ANGLES])[0]
     assert (found.module, math.degrees(found.pressure_angle)) == pytest.approx((module, 20.0), rel=1e-12)
     assert shift_of_span(first, spanned, teeth, found, 0.0) == pytest.approx(shift, abs=1e-9)
+
+
+def test_what_stands_in_a_scene_is_typed_with_points_in_every_language(capsys: pytest.CaptureFixture[str]) -> None:
+    """A module of 2.5 mm, and the keys of its note copied into a scene."""
+    span, next_span = spans_of(2.5, 20.0, 31, 0.2, 4)
+    words = f"number_of_teeth=31 teeth_spanned=4 span={span:.2f} next_span={next_span:.2f}".split()
+    assert run("calc", "identify", *words, "--language", "uk") == 0
+    keys = capsys.readouterr().out.split("у сцені: ")[1].split("\n")[0]
+    table = tomllib.loads(keys.replace(", ", "\n"))
+    assert (table["module"], table["number_of_teeth"]) == (2.5, 31)
+    assert table["profile_shift_coefficient"] == pytest.approx(0.2, abs=0.002)

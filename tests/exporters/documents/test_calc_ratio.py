@@ -79,6 +79,7 @@ def test_the_page_tells_the_fewest_teeth_and_355_of_113(capsys: pytest.CaptureFi
     ("words", "told"),
     [
         (("ratio=30",), "stages = 2 has more of them; 10 works"), (("ratio=300", "stages=2"), "that ratio; 100 works"),
+        (("ratio=1000",), "ratio = 1000.0: no numbers of teeth within these limits have that ratio"),
         (("ratio=3", "coaxial=true"), "coaxial = true: is for two stages; false works"),
         (("ratio=1", "least_teeth=50", "most_teeth=20"), "at most 20 works"), ((), "ratio.ratio: is missing"),
     ],

@@ -57,7 +57,7 @@ def test_only_points_of_numbers_become_commas() -> None:
 
 
 def test_numbers_in_words_have_the_mark_of_the_language_and_names_do_not() -> None:
-    said = "printed before (3.4) and in fig. 3.9: 14.13 for 1.75, 3.5, as -0.5; least_angle_deg = 0.145, x_0.3"
+    said = "printed in (3.4) and fig. 3.9: 14.13 for 1.75, 3.5, as -0.5; least_angle_deg = 0.145, module = 2.5, x_0.3"
     told = said.replace("14.13 for 1.75, 3.5, as -0.5", "14,13 for 1,75; 3,5, as \N{MINUS SIGN}0,5").replace(
         "x_0.3", "x_0,3"
     )
