@@ -275,18 +275,23 @@ def test_the_contact_ratio_of_teeth_as_made_is_told(teeth: tuple[int, int, int])
 
 
 @pytest.mark.parametrize(
-    ("teeth", "satellites", "most"),
-    [((60, 13, 87), 3, 14), ((31, 12, 53), 3, 8), ((49, 22, 91), 2, 8), ((24, 24, 72), 3, 5)],
-)
+    ("teeth", "satellites", "least", "most"),
+    [((60, 13, 87), 3, 0.0, 14), ((31, 12, 53), 3, 0.0, 8), ((49, 22, 91), 2, 0.0, 8), ((24, 24, 72), 3, 0.0, 5),
+     # two rims, the larger one decides; 0.452 mm are left between four
+     ((18, 36, 20, 72), 2, 0.3, 4), ((18, 36, 20, 72), 2, 0.5, 3)],
+)  # fmt: skip
 def test_the_most_satellites_are_those_of_the_tips_with_their_shifts(
-    teeth: tuple[int, int, int], satellites: int, most: int
+    teeth: tuple[int, ...], satellites: int, least: float, most: int
 ) -> None:
     """Circles of the tips on the circle of the pins, as the recipe makes both; by the teeth 15, 9 and 9 were told."""
     keys = {"teeth": [*teeth], "satellites": satellites, "module": 1.0, "shaft_diameter": 3.0, "pin_diameter": 3.0}
-    scene = scene_from_dict({"assemblies": [{"kind": "planetary_set", **keys}]}, "t", "t")
+    more = {} if len(teeth) == 3 else {"scheme": "one_external_one_internal"}
+    scene = scene_from_dict({"assemblies": [{"kind": "planetary_set", **keys, **more}]}, "t", "t")
     parts, _ = make_parts(scene, "t")
-    tip, circle = parts["satellite"].thing.tip_radius, parts["carrier"].keys.pin_circle_diameter / 2
+    tip = max(part.thing.tip_radius for name, part in parts.items() if name in ("satellite", "second_satellite"))
+    circle = parts["carrier"].keys.pin_circle_diameter / 2
     gaps = [2 * (circle * math.sin(math.pi / n) - tip) for n in (most, most + 1)]
-    assert gaps[0] > 0 > gaps[1]
-    found = calculated(f"teeth=[{','.join(map(str, teeth))}]", f"satellites={satellites}")["values"]
+    assert gaps[0] > least > gaps[1]
+    words = [f"teeth=[{','.join(map(str, teeth))}]", f"satellites={satellites}", f"least_gap={least}"]
+    found = calculated(*words, *(f"{key}={value}" for key, value in more.items()))["values"]
     assert found.get("made_most_satellites", found["most_satellites"]) == most

@@ -273,6 +273,37 @@ def test_reports_tell_what_calc_tells(made: Callable[[str], Path], capsys: pytes
         assert max(way, 1 - way) / min(way, 1 - way) == pytest.approx(quantities["ratio_of_ways"], abs=0.02)
 
 
+def crank_report(folder: Path, mechanism: Keys) -> dict[str, float]:
+    """What the report tells of a crank alone."""
+    table = ", ".join(f"{key} = {json.dumps(value)}" for key, value in mechanism.items())
+    text = f'[parts.crank]\nkind = "lever_crank"\nface_width = 3.0\nmechanism = {{ {table} }}\n'
+    assert main(["build", str(written(folder, text)), "--out", str(folder), "--format", "svg", "-q"]) == 0
+    found: dict[str, float] = json.loads((folder / "m" / "report.json").read_text("utf-8"))["parts"]["crank"]
+    return found
+
+
+def test_what_turns_back_more_often_has_no_ratio_of_two_ways(tmp_path: Path) -> None:
+    """A slider near the dead centres of both rods goes to and fro four times a turn."""
+    keys = SIX | {"coupler_length": 68.0, "lever_length": 41.0, "arm_length": 63.0, "arm_angle_deg": 90.0,
+                  "rod_length": 108.0, "guide_height": 0.0}  # fmt: skip
+    found, solved, places = crank_report(tmp_path, keys), Solved(keys), []
+    for k in range(720):
+        solved.turned(math.tau * k / 720)
+        places.append((solved.output / solved.way).real)
+    ahead = np.diff([*places, places[0]]) > 0
+    assert np.count_nonzero(ahead != np.roll(ahead, 1)) == 4
+    assert found["slider_stroke"] == pytest.approx(max(places) - min(places), abs=2e-3)
+    assert "ratio_of_ways" not in found
+
+
+def test_a_lever_that_goes_round_swings_by_a_whole_turn(tmp_path: Path) -> None:
+    """Grashof: the frame is the shortest link."""
+    keys = {"first": "rods", "crank_length": 50.0, "frame_length": 20.0, "coupler_length": 55.0, "lever_length": 45.0}
+    found = crank_report(tmp_path, keys)
+    assert found["lever_swing_deg"] == pytest.approx(360.0)
+    assert "ratio_of_ways" not in found
+
+
 def test_calc_begins_where_the_model_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = written(tmp_path, text_of(SIX, crank_angle_deg=75.0))
     assert main(["calc", "lever", str(file), "--format", "json"]) == 0

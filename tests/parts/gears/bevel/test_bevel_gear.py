@@ -385,6 +385,17 @@ def test_thin_tips_are_told_where_those_of_the_virtual_spur_gear_are_thin(teeth:
     assert ("thin_tip" in [found.code for found in parts["p"].findings]) == (land < 0.3)
 
 
+@pytest.mark.parametrize("teeth", [(17, 31), (19, 31), (24, 27)])
+def test_the_usual_face_width_as_it_is_told_is_not_too_wide(teeth: tuple[int, int]) -> None:
+    """0.3 of the cone distance, with five decimals; 1e-5 mm more is."""
+    usual = 0.3 * math.hypot(*teeth) * 2.0 / 2
+    for width, wide in ((round(usual, 5), False), (round(usual, 5) + 1e-5, True), (None, False)):
+        keys = PINION | {"number_of_teeth": teeth[0], "mate_number_of_teeth": teeth[1]}
+        keys |= {} if width is None else {"face_width": width}
+        found = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].findings
+        assert ("bevel_wide_face" in [one.code for one in found]) == wide
+
+
 # KHK, Gear Technical Reference, calculation of straight bevel gears: m 3, z 20/40, b 22 at a right angle; what the page
 # tells, then the radius of the inner tip circle of each
 KHK: dict[str, tuple[list[str], dict[str, list[float]], list[float]]] = {
