@@ -1,7 +1,7 @@
 """The mates of involute gears: two external ones, a pinion in its ring, a gear on its rack.
 
-Each sets distance and phase, and thins both gears for its backlash; the external pair shortens tips, the internal one
-those that would reach a fillet or a root.
+Each sets distance and phase, and thins both gears for its backlash; the external pair shortens tips, and both gears
+those that would reach the mate's fillet or root.
 """
 
 from __future__ import annotations
@@ -61,14 +61,27 @@ class GearMating(Toothed):
     """Two involute gears in mesh, as they are built at last.
 
     ``normal_share``: of a gap in the transverse section that is left at right angles to the flanks, cos(beta_b).
+    ``alone``: the same pair with the tips that its keys give it, where this mate made them shorter.
     """
 
     pair: Pair
     normal_share: float
+    alone: ExternalPair | InternalPair | None = None
 
     def findings(self) -> tuple[Finding, ...]:
-        """Conditions of the pair that are not kept: interference, assembly, clearance, contact ratio."""
-        return self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
+        """Conditions of the pair that are not kept, and the tips that are not those that the keys alone would give."""
+        from geometry.base.findings import Finding
+
+        found = self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
+        if self.alone is None:
+            return found
+        made = zip(self.alone.roles, self._tips(self.pair), self._tips(self.alone), strict=True)
+        return *found, *(Finding(f"tips_shortened_{role}", at, had) for role, at, had in made if at != had)
+
+    @staticmethod
+    def _tips(pair: Any) -> list[float]:
+        """The tip diameters of both gears, mm."""
+        return [2 * gear.tip_radius for gear in pair.gears]
 
     def _ratios(self) -> dict[str, Any]:
         """Contact ratios and backlash."""
@@ -148,13 +161,9 @@ class ExternalMating(GearMating):
 
 
 class InternalMating(GearMating):
-    """A pinion in a ring, in either order. The pair itself has the ring at its origin.
-
-    ``alone``: the same pair with the tips that its keys give it, where this mate made them shorter.
-    """
+    """A pinion in a ring, in either order. The pair itself has the ring at its origin."""
 
     pair: InternalPair
-    alone: InternalPair | None = None
 
     @property
     def ring_first(self) -> bool:
@@ -177,15 +186,6 @@ class InternalMating(GearMating):
         # a pinion that is ahead meets the flanks that a ring would meet that lags behind
         turn = -phase_off / self.pair.gear_ratio if self.ring_first else phase_off
         return GearMesh(self.pair, turn, distance_off)
-
-    def findings(self) -> tuple[Finding, ...]:
-        """Conditions that are not kept, and the tips that are not those that the keys alone would give."""
-        from geometry.base.findings import Finding
-
-        pair, alone = self.pair, self.alone or self.pair
-        made = ((2 * p.pinion.tip_radius, 2 * p.ring.tip_radius) for p in (pair, alone))
-        told = zip(pair.roles, *made, strict=True)
-        return *super().findings(), *(Finding(f"tips_shortened_{r}", at, had) for r, at, had in told if at != had)
 
     def _errors(self, distance_off: float) -> tuple[TransmissionError, TransmissionError, float]:
         found = GearMating._errors(self, distance_off)
@@ -429,7 +429,30 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
         return in_normal_terms(refusal, one.keys, other.keys).renamed(owner + refusal.name)
 
 
-class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear", ExternalMating]):
+class YieldingPair(InvolutePair[K, A, B, M], Generic[K, A, B, M]):
+    """Two gears whose tips yield, unless given, where they would reach the mate's fillet or root."""
+
+    def mating(self, keys: K, first: End[Any], second: End[Any]) -> M:
+        """At the distance that the keys give, and whose tips are not those of its keys."""
+        made = super().mating(keys, first, second)
+        one, two = (replace(e, thing=replace(e.thing, given_tip_diameter=_given(e))) for e in (first, second))
+        try:
+            alone: Any = self.made(keys, one, two, keys.working_centre_distance).pair
+            yields = any(_off_roots(alone, first, second))
+        except GeometryError:
+            # pointed with the tip that its keys give it
+            return made
+        return replace(made, alone=alone) if yields else made
+
+
+def _off_roots(pair: Any, first: End[Any], second: End[Any]) -> tuple[float | None, float | None]:
+    """Tip radii, mm, of both ends of a pair that keep off; None: as they are, as one is whose tip is given."""
+    tips = pair.tips_off_roots()
+    one, two = tips[::-1] if first.kind == "ring_gear" else tips
+    return one if _given(first) is None else None, two if _given(second) is None else None
+
+
+class ExternalGearPair(YieldingPair[ExternalGearPairSpec, "SpurGear", "SpurGear", ExternalMating]):
     """Two external gears; their tips are shortened where the shifts bring them too near."""
 
     name, keys, mated, rolls = "external_gear_pair", ExternalGearPairSpec, ExternalMating, "external"
@@ -453,7 +476,7 @@ class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear"
     def tips(
         self, keys: ExternalGearPairSpec, first: End[SpurGear], second: End[SpurGear]
     ) -> tuple[float | None, float | None]:
-        """Those of the pair, which must leave something of the involutes."""
+        """Those of the pair, which must leave something of the involutes, or those that keep off roots."""
         from geometry.gears.pairs.external import external_pair
 
         pair = self._reaching(keys, first, second).pair
@@ -476,11 +499,12 @@ class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear"
                 "shortened_tips_keep_no_involute",
                 lambda: nearest(works, given, ends),
             ) from fault
-        return pair.first.tip_radius, pair.second.tip_radius
+        one, two = _off_roots(pair, first, second)
+        return one or pair.first.tip_radius, two or pair.second.tip_radius
 
 
 class InternalGearPair(
-    InvolutePair[InternalGearPairSpec, "SpurGear | RingGear", "SpurGear | RingGear", InternalMating]
+    YieldingPair[InternalGearPairSpec, "SpurGear | RingGear", "SpurGear | RingGear", InternalMating]
 ):
     """A pinion in its ring, in either order."""
 
@@ -495,17 +519,9 @@ class InternalGearPair(
         pinion, ring = (second, first) if first.kind == "ring_gear" else (first, second)
         return internal_pair(pinion.thing, ring.thing, distance)
 
-    def mating(self, keys: InternalGearPairSpec, first: End[Any], second: End[Any]) -> InternalMating:
-        """At the distance that the keys give, and whose tips are not those of its keys."""
-        made = super().mating(keys, first, second)
-        one, two = (replace(e, thing=replace(e.thing, given_tip_diameter=_given(e))) for e in (first, second))
-        alone = self.made(keys, one, two, keys.working_centre_distance).pair
-        return replace(made, alone=alone if any(alone.tips_off_roots()) else None)
-
     def tips(self, keys: InternalGearPairSpec, first: End[Any], second: End[Any]) -> tuple[float | None, float | None]:
         """Those that keep off the mate's fillet and root; a given tip diameter stays."""
-        pinion, ring = self._reaching(keys, first, second).pair.tips_off_roots()
-        return (ring, pinion) if first.kind == "ring_gear" else (pinion, ring)
+        return _off_roots(self._reaching(keys, first, second).pair, first, second)
 
 
 def _given(end: End[Any]) -> float | None:

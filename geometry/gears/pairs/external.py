@@ -25,12 +25,9 @@ class ExternalPair(InvolutePair[SpurGear, ToothSide], dict=True):
         """The exact side of the second gear's teeth; raises ParameterError where it cannot be built."""
         return tooth_side(self.second)
 
-    def _start_limits(self) -> tuple[str, str]:
-        """An undercut gear lacks the flank that is asked for, which costs contact ratio: ``active_flank_cut_away_*``.
-
-        Whether the mate's tip strikes its fillet only the contact search tells.
-        """
-        return both("active_flank_cut_away" if undercut(g).margin < 0 else "fillet_interference" for g in self.gears)
+    def _flank_cut_away(self) -> tuple[bool, bool]:
+        """Of undercut gears."""
+        return both(undercut(g).margin < 0 for g in self.gears)
 
 
 def external_pair(first: SpurGear, second: SpurGear, working_centre_distance: float | None = None) -> ExternalPair:

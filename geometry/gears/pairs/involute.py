@@ -23,6 +23,7 @@ from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES, is_told
 from geometry.curves.curve import Real
+from geometry.gears.pairs.corners import Passing
 from geometry.gears.teeth.limits import Margin, not_kept
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_tooth import RingSide
@@ -33,6 +34,8 @@ from geometry.plane.distance import Flags
 
 # to which the sought limit is given, so that it works when a printed one is typed back
 _NEAREST_DIGITS = 6
+# modules by which tips that yield keep off where they would touch a fillet or a root, and mm that are rounding
+OFF_ROOT, _SAME = 0.005, 1e-9
 
 Gear = SpurGear | RingGear
 G = TypeVar("G", bound=Gear)
@@ -273,28 +276,100 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         """Half of the backlash as a rotation of one of the gears, rad."""
         return self.normal_backlash / (2 * gear.base_radius)
 
+    @cached_property
+    def touching_corners(self) -> tuple[float | None, float | None]:
+        """Tip radii of both gears from which on their corners run into the mate's fillet, mm; None: none does."""
+        second, first = (self._corner(gear) for gear in range(2))
+        return first, second
+
+    def _corner(self, index: int) -> float | None:
+        """Of the mate of one of the gears."""
+        gear, mate = self.gears[index], self.gears[1 - index]
+        facing = math.pi * (1 + 1 / mate.number_of_teeth) if self.sign > 0 else 0.0
+        return Passing(
+            self.sides[index],
+            mate.flank(),
+            self.working_radii[index],
+            mate.sign * self.working_centre_distance,
+            1 + self.sign * gear.number_of_teeth / mate.number_of_teeth,
+            facing - mate.sign * self._half_play(mate),
+            mate.sign,
+        ).corner(mate.tip_radius, undercut=self._flank_cut_away()[index])
+
+    def _flank_cut_away(self) -> tuple[bool, bool]:
+        """Whether undercut has taken the start of a flank, so that a tip may pass where it was."""
+        return False, False
+
+    @cached_property
+    def tip_limits(self) -> tuple[float, float]:
+        """Greatest tip diameters, of a ring the least, whose corners keep off the mate's fillet, mm; inf: any does."""
+        line, forms, bases = (
+            self._line_of_action,
+            self._form_tangents(),
+            (self.first.base_radius, self.second.base_radius),
+        )
+        reached = self.sign * (line - forms[1]), line - self.sign * forms[0]
+        limits = []
+        for gear, corner, base, end, cut in zip(
+            self.gears, self.touching_corners, bases, reached, self._flank_cut_away()[::-1], strict=True
+        ):
+            flank = math.inf if cut else gear.sign * math.hypot(base, max(end, 0.0))
+            limits.append(2 * gear.sign * min(flank, math.inf if corner is None else gear.sign * corner))
+        return limits[0], limits[1]
+
+    def tips_off_roots(self) -> tuple[float | None, float | None]:
+        """Tip radii, mm, that keep off the mate's fillet and root where those of the pair reach it; None: as they are.
+
+        They lie ``OFF_ROOT`` off: corners run on beyond the end of the involute. Tips that would have to lie below
+        where their own flank begins stay, and so do those of teeth that do not reach each other.
+        """
+        a_w, sign, off = self.working_centre_distance, self.sign, OFF_ROOT * self.module
+        roots = sign * (a_w - self.second.root_radius), a_w - sign * self.first.root_radius
+        found: list[float | None] = []
+        for gear, most, root, form in zip(self.gears, self.tip_limits, roots, self.root_form_radii, strict=True):
+            limit = min(gear.sign * most / 2, gear.sign * root)
+            tip = math.floor(1e4 * (limit - off)) / 1e4
+            reaches = gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0
+            found.append(gear.sign * tip if reaches and tip > gear.sign * form else None)
+        return found[0], found[1]
+
     def margins(self) -> tuple[Margin, ...]:
         """The pair's own limits, each with its margin (>= 0 where kept); practicum 3.1, blocking contours.
 
-        ``fillet_interference_*``: where the mate's tip asks the flank to start against where the involute starts, both
-        in mm along the line of action from the base circle (exact for a rounded rack: the limit comes from the root
-        form circle). ``contact_ratio`` (effective) against 1; ``tip_clearance_*`` and ``normal_backlash`` against 0,
-        mm. With little clearance a sharp tip may still strike a fillet beside the flanks: the contact search tells.
+        ``fillet_interference_*``: where the mate's tip asks the flank to start against where the involute starts, or
+        the mate's corner already runs into the fillet (``tip_limits``), both in mm along the line of action from the
+        base circle. ``active_flank_cut_away_*``: the same of a flank whose start undercut has taken, which costs
+        contact ratio. ``contact_ratio`` (effective) against 1; ``tip_clearance_*`` and ``normal_backlash`` against 0,
+        mm.
         """
-        starts, forms, names = self._start_tangents(), self._form_tangents(), self._start_limits()
         clearances, (one, two) = self.tip_clearances, self.roles
         return (
-            Margin.above(f"{names[0]}_{one}", starts[0], forms[0]),
-            Margin(f"{names[1]}_{two}", starts[1], forms[1], self.sign * (starts[1] - forms[1])),
+            *self._start_margins(),
             Margin.above("contact_ratio", self.effective_contact_ratio, 1.0),
             Margin.above(f"tip_clearance_{one}", clearances[0], 0.0),
             Margin.above(f"tip_clearance_{two}", clearances[1], 0.0),
             Margin.above("normal_backlash", self.normal_backlash, 0.0),
         )
 
-    def _start_limits(self) -> tuple[str, str]:
-        """What the limit of each flank's start is called."""
-        return "fillet_interference", "fillet_interference"
+    def _start_margins(self) -> list[Margin]:
+        """Those of where both flanks start."""
+        line, sign, found = self._line_of_action, self.sign, []
+        for index, (role, way) in enumerate(zip(self.roles, (1, sign), strict=True)):
+            start, form, corner = (
+                self._start_tangents()[index],
+                self._form_tangents()[index],
+                self.touching_corners[1 - index],
+            )
+            mate, cut = self.gears[1 - index], self._flank_cut_away()[index]
+            if cut:
+                found.append(Margin.above(f"active_flank_cut_away_{role}", start, form))
+            if corner is not None:
+                along = tangent_length(corner, mate.base_radius)
+                end = line - sign * along if index else sign * (line - along)
+                form = end if cut else way * max(way * form, way * end)
+            if corner is not None or not cut:
+                found.append(Margin(f"fillet_interference_{role}", start, form, way * (start - form)))
+        return found
 
     def findings(self) -> tuple[Finding, ...]:
         """The limits that are not kept; a margin within rounding of the pair's size counts as kept."""

@@ -15,7 +15,7 @@ from functools import cached_property
 from geometry.base.angles import involute_function
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
-from geometry.gears.pairs.internal import OFF_ROOT
+from geometry.gears.pairs.involute import OFF_ROOT
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
 from geometry.gears.shifts import external as blocking_contour
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair

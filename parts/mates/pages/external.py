@@ -41,7 +41,7 @@ from parts.keys.base import in_modules, mm
 from parts.keys.helix import common_face, helix_of, in_keys, in_normal_terms, same_helix
 from parts.mates.pages.crossed import CrossedKeys, crossed_sheet
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
-from parts.mates.pages.pair_keys import GEARS, kind_of_pair, merged, pair_table
+from parts.mates.pages.pair_keys import GEARS, ShortenedTips, kind_of_pair, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
 from parts.pages.contact_steps import (
     Helical,
@@ -78,18 +78,23 @@ class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     circumferential_backlash: Annotated[float, _CIRCUMFERENTIAL_BACKLASH] | None = None
     side_clearance_class: Annotated[Literal["H", "E", "D", "C", "B", "A"], Meta(description="GOST 1643")] | None = None
     tip_shortening_coefficient: Annotated[float, in_modules("given tip shortening", least=0, most=3)] | None = None
+    shortened_tips: ShortenedTips = False
     measured_arc_of_action: Annotated[float, mm("arc dd' measured off a drawing", above=0, most=1e6)] | None = None
     measured_working_pitch: Annotated[float, mm("p_w measured off the same drawing", above=0, most=1e6)] | None = None
 
 
 class Asked(Record):
-    """The pair of a calculation in its transverse section, its normal gears, and whether its shifts follow."""
+    """The pair of a calculation in its transverse section, its normal gears, and whether its shifts follow.
+
+    ``off_roots``: tip radii that keep off the mate's fillet or root, mm, where they do so by themselves.
+    """
 
     keys: PairKeys
     pair: ExternalPair
     normal: tuple[SpurGear, SpurGear]
     helical: Helical
     shifts_follow: bool
+    off_roots: tuple[float | None, float | None] = (None, None)
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -107,7 +112,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     if isinstance(specs[0], RingGearSpec):
         # a pinion is the first of its sheet
         specs.reverse()
-    built = {"shortened_tips": True} if kind == "internal_gear_pair" else {}
+    built = {"shortened_tips": True} if "shortened_tips" in keys_of(PAIRS[kind][0]) else {}
     known = {"kind": kind, **built, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
     wishes = {
         key: getattr(mate, key, None) for key in ("working_centre_distance", "normal_backlash", "shaft_angle_deg")
@@ -201,7 +206,18 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     distance = None if follow else keys.working_centre_distance
     gears = [_section_of(keys, index, normal, beside=not follow) for index in range(2)]
     pair = external_pair(gears[0], gears[1], distance)
-    return Asked(keys, pair, normal, Helical(normal[0], common_face(keys.first, keys.second)), follow)
+    helical = Helical(normal[0], common_face(keys.first, keys.second))
+    if not keys.shortened_tips or keys.tip_shortening_coefficient is not None:
+        return Asked(keys, pair, normal, helical, follow)
+    off_one, off_two = (
+        tip if spec.tip_diameter is None else None
+        for tip, spec in zip(pair.tips_off_roots(), (keys.first, keys.second), strict=True)
+    )
+    first, second = (
+        gear if tip is None else replace(gear, given_tip_diameter=2 * tip)
+        for gear, tip in zip(pair.gears, (off_one, off_two), strict=True)
+    )
+    return Asked(keys, replace(pair, first=first, second=second), normal, helical, follow, (off_one, off_two))
 
 
 def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *, beside: bool) -> SpurGear:
@@ -397,8 +413,8 @@ def _radii(page: Sheet, asked: Asked) -> None:
 
 
 def _tip_formula(asked: Asked, index: int) -> str:
-    """(3.11) where the tip follows it; a given tip has no formula."""
-    if (asked.keys.first, asked.keys.second)[index].tip_diameter is not None:
+    """(3.11) where the tip follows it; one that is given or keeps off a root has no formula."""
+    if (asked.keys.first, asked.keys.second)[index].tip_diameter is not None or asked.off_roots[index] is not None:
         return ""
     shortened = asked.pair.gears[index].given_tip_diameter is not None
     return "{r#} + " + addendum_formula(" - {dy}" if shortened else "")

@@ -6,7 +6,7 @@ import math
 from typing import Annotated, Any
 
 import msgspec
-from msgspec import Meta, Struct
+from msgspec import Struct
 
 from geometry.base.errors import ParameterError
 from geometry.gears.pairs.internal import InternalPair, shift_difference
@@ -24,7 +24,7 @@ from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of,
 from parts.keys.base import mm
 from parts.keys.helix import common_face, same_helix
 from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
-from parts.mates.pages.pair_keys import mate_of, pair_mated, pair_table
+from parts.mates.pages.pair_keys import ShortenedTips, mate_of, pair_mated, pair_table
 from parts.mates.pages.rack import first_radii, rack_page
 from parts.mates.pages.wishes import wish_refused
 from parts.pages.contact_steps import (
@@ -56,7 +56,7 @@ class InternalKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     second: RingGearSpec
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
-    shortened_tips: Annotated[bool, Meta(description="tips off the mate's fillet, as a scene has them")] = False
+    shortened_tips: ShortenedTips = False
 
 
 _WORKING_CENTRE_DISTANCE = mm("wanted distance from axis to datum line", above=0, most=100_000)
@@ -232,6 +232,8 @@ def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:
         page.add(f"{name}_margin", found[name].margin, "", "KHK")
     fillets = found["fillet_interference_pinion"].margin, found["fillet_interference_ring"].margin
     page.both("fillet_interference_margin", fillets, "", ISO)
-    page.add("greatest_tip_diameter_pinion", pair.tip_limits[0], "", "ISO 21771")
-    page.add("least_tip_diameter_ring", pair.tip_limits[1], "", "ISO 21771")
+    # where a corner meets the fillet itself the limit is its conjugate's
+    sources = [ISO if corner is None else "ISO 21771, Willis" for corner in pair.touching_corners]
+    page.add("greatest_tip_diameter_pinion", pair.tip_limits[0], "", sources[0])
+    page.add("least_tip_diameter_ring", pair.tip_limits[1], "", sources[1])
     limit_steps(page, pair, (pair.pinion,), helical)

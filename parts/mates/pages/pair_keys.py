@@ -26,6 +26,7 @@ M = TypeVar("M", bound=MateKeys)
 # the second body of each kind of pair that it tells
 _SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
 
+ShortenedTips = Annotated[bool, Meta(description="tips off the mate's fillet, as a scene has them")]
 _FACE_WIDTH = mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000)
 _LEAST_CONTACT_RATIO = Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth the total one")
 

@@ -258,6 +258,8 @@ def check_sound(pair: ExternalPair) -> None:
         return
     if "contact_ratio" in broken or any(code.startswith("active_flank_cut_away") for code in broken):
         assert found.verdict is not Verdict.CONTACT or "contact_ratio" not in broken
+        # no tip reaches a fillet, nor the edge above an undercut one
+        assert found.verdict is not Verdict.OVERLAP
         return
     assert np.abs(gaps).max() <= 1e-8, (pair, found.worst)
     assert found.verdict is (Verdict.CLEAR if half else Verdict.CONTACT)
