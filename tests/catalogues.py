@@ -56,14 +56,6 @@ from parts.texts.sheets import SHEETS
 from tests.sources import told
 
 HOUSE = Path(parts.__file__).parents[1]
-# built-in scenes whose comments `new --language` tells
-_SPEAKING = (
-    "lesson_*", "*_coupon", "print_*", "power_table_print", "practicum_pair", "practicum_*_cam", "bevel_*",
-    "laser_gear*", "crossed_helical_pair", "working_drawings", "idler_train", "clock_gears", "shaft_set",
-    "geneva_drive", "chain_drive", "belt_drive", "oval_gears", "linkage_cam", "barrel_cam", "groove_cam",
-    "yoke_cam", "wedge_cam", "contour_cams", "six_link_model",
-    "spline_joint", "conjugate_cams", "lantern_pair",
-)  # fmt: skip
 # argparse asks gettext for these, which would look for the terminal's language in the system's catalogues
 _ARGPARSE = (
     "usage: ",
@@ -144,7 +136,7 @@ def _plain_texts() -> Iterator[str]:
     # the rest are symbols
     yield from (style.name for style in STYLES.values() if re.search("[a-z]{4}", style.name))
     yield from (law_text(law().name).msgid for law in NAMED_LAWS.values())
-    for file in sorted(file for name in _SPEAKING for file in SCENE_FOLDER.glob(f"{name}.toml")):
+    for file in sorted(SCENE_FOLDER.glob("*.toml")):
         yield from comments_of(file.read_text("utf-8"))
     for kind in _structs():
         if not (phrase := phrase_of(kind)).startswith("Keys of"):
