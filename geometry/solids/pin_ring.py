@@ -123,6 +123,10 @@ def _corner(before: Curve, after: Curve, offset: float) -> Arc:
     return Arc(end_point(before), abs(offset), start, joint_turn(before, after))
 
 
+# share of the room for the inside of a ring that it keeps from either end of it
+_HOLD = 0.02
+
+
 class PinRing(Record):
     """A ring with its pins, lengths in mm; ``inner_radius`` 0: a plate without a bore. ``holes``: those in its rim."""
 
@@ -141,6 +145,17 @@ class PinRing(Record):
         """The inner boundary of a ring, not of a plate with holes."""
         seat = self.pin_radius if self.pins == "fixed" else self.seat_radius
         return SeatCircle(self.number_of_pins, self.pin_circle_radius, seat, self.inner_radius, self.pins == "fixed")
+
+    @property
+    def tip_radius(self) -> float:
+        """Where the ring ends inwards, mm, as the teeth of one do."""
+        return self.inner_radius
+
+    @property
+    def inner_limits(self) -> tuple[float, float]:
+        """Radii of the inside between which the pins have their hold, mm."""
+        low, high = self.seats.least_inner_radius(), self.seats.greatest_inner_radius()
+        return low + _HOLD * (high - low), high - _HOLD * (high - low)
 
     @property
     def pin_holes(self) -> RoundHoles:

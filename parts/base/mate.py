@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 
 from msgspec import Meta, Struct
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import STRAIGHT, CommonFace
 from parts.base.texts import Text
 
@@ -290,6 +290,10 @@ class MateKind(Generic[K, A, B]):
     def tips(self, keys: K, first: End[A], second: End[B]) -> tuple[float | None, float | None]:
         """Tip radius (mm) that it wants of each after thinning, none longer; the shortest wins, None: as it is."""
         return None, None
+
+    def shortened(self, thing: Any, radius: float) -> Any:
+        """What a part is made from with the tip that ``tips`` asks for."""
+        return replace(thing, given_tip_diameter=2 * radius)
 
     def tip_beside(self, keys: K, part: Struct, other: Struct) -> tuple[float, ...]:
         """Tip diameter (mm) that a part which is pointed alone keeps beside the other one, where it leaves it any."""

@@ -10,6 +10,7 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
+from geometry.base.record import replace
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.mate import AboveKeys, Height, direction, height
 from parts.mates.sizes import same_size
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 # sums of typed sizes
 _ROUNDING = 1e-12
+# radii of a pin by which the inside of a ring that yields keeps off the lobes
+_OFF_LOBES = 0.1
 _Eccentric = Annotated[float, direction("direction of the eccentric, from the pins' axis")]
 
 _TURNED_LOBES = Meta(ge=-10_000, le=10_000, description="turns the disc on by whole lobes: for holes that must line up")
@@ -95,10 +98,13 @@ class CycloidalMating(Touching):
         return (ContactPlace(self.ring.inner_radius - reach, math.pi, complex(reach), labels),)
 
     def findings(self) -> tuple[Finding, ...]:
-        """Lobes that reach the inside of the ring."""
+        """Lobes that reach the inside of the ring, or that of any ring which would hold its pins."""
         needed = 2 * (self.disc.tip_radius + self.distance)
         if not self.has_contact or 2 * self.ring.inner_radius >= needed * (1 - _ROUNDING):
             return ()
+        if needed > 2 * (most := self.ring.inner_limits[1]):
+            most_eccentricity = self.distance - (needed / 2 - most) / 2
+            return (Finding("lobes_beyond_pins", self.distance, most_eccentricity),)
         return (Finding("lobes_reach_ring", 2 * self.ring.inner_radius, needed),)
 
     def quantities(self) -> dict[str, Any]:
@@ -204,6 +210,22 @@ class CycloidalPair(MateKind[CycloidalPairSpec, "PinRing", "CycloidalDisc"]):
 
     name, keys = "cycloidal_pair", CycloidalPairSpec
     joins = (("pin_ring", "cycloidal_disc"),)
+
+    def tips(
+        self, keys: CycloidalPairSpec, first: End[PinRing], second: End[CycloidalDisc]
+    ) -> tuple[float | None, float | None]:
+        """An inside that keeps off the lobes where that which nobody gave does not; the pins must keep their hold."""
+        ring, disc = first.thing, second.thing
+        reach = disc.tip_radius + disc.eccentricity
+        if ring.pins == "holes" or getattr(first.keys, "inner_diameter", None) is not None:
+            return None, None
+        if ring.inner_radius >= reach * (1 - _ROUNDING) or reach > (most := ring.inner_limits[1]):
+            return None, None
+        return min(math.ceil(1e4 * (reach + _OFF_LOBES * ring.pin_radius)) / 1e4, most), None
+
+    def shortened(self, thing: PinRing, radius: float) -> PinRing:
+        """A ring of pins has no teeth, but an inside."""
+        return replace(thing, inner_radius=radius)
 
     def mating(self, keys: CycloidalPairSpec, first: End[PinRing], second: End[CycloidalDisc]) -> CycloidalMating:
         """The disc is for these pins."""

@@ -1,4 +1,4 @@
-"""From the mates of a scene to matings. A mate may change a part only in its tip diameter and its thinning.
+"""From the mates of a scene to matings. A mate may change a part only in its tip diameter (inside) and its thinning.
 
 Both happen before any region is built: the shortest tooth that any mate asks for wins, and thinning is shared out so
 that mates have the backlash that they ask for.
@@ -39,16 +39,16 @@ def mated(
         if thinning:
             changed(name, circumferential_thinning=thinning)
     # every mate tells its tips before any is changed
-    wanted: dict[str, float] = {}
+    wanted: dict[str, tuple[float, Any]] = {}
     for mate, tips in [(m, _kind(m).tips(m, *both(m))) for m in mates]:
         for end, radius in zip((mate.first, mate.second), tips, strict=True):
             if radius is not None:
                 own = final[name := part_of[end]].thing.tip_radius
                 # no mate makes teeth longer: the shortest has its tip farthest from what it was
-                if abs(radius - own) > abs(wanted.get(name, own) - own):
-                    wanted[name] = radius
-    for name, radius in wanted.items() if shortened else ():
-        changed(name, given_tip_diameter=2 * radius)
+                if name not in wanted or abs(radius - own) > abs(wanted[name][0] - own):
+                    wanted[name] = radius, _kind(mate)
+    for name, (radius, kind) in wanted.items() if shortened else ():
+        final[name] = replace(final[name], thing=kind.shortened(final[name].thing, radius))
     return final, [_kind(m).mating(m, *both(m)) for m in mates]
 
 

@@ -19,7 +19,11 @@ if TYPE_CHECKING:
     from geometry.solids.pin_ring import PinRing
 
 
-_INNER_DIAMETER = part_mm("inside of the ring; default: the pin circle (holes: free of them)", least=0, example=83.0)
+_INNER_DIAMETER = part_mm(
+    "inside of the ring; default: the pin circle, wider where a disc needs it (holes: free of them)",
+    least=0,
+    example=83.0,
+)
 _OUTER_DIAMETER = mm(
     "outside; default: pin circle + 3 pins, or beyond the holes", above=0, most=2 * MOST_LENGTH, example=110.0
 )
@@ -131,9 +135,8 @@ def _check_inside(keys: PinRingSpec, ring: PinRing, least: float) -> None:
         if ring.inner_radius > max(most, 0.0):
             raise ParameterError("inner_diameter", value, "inside_reaches_pin_holes", most_of(2 * most, value))
         return
-    low, high = ring.seats.least_inner_radius(), ring.seats.greatest_inner_radius()
-    room = 0.02 * (high - low)
-    if ring.inner_radius > high - room:
-        raise ParameterError("inner_diameter", value, "inside_beyond_pins", most_of(2 * (high - room), value))
-    if ring.inner_radius < low + room:
-        raise ParameterError("inner_diameter", value, "inside_buries_pins", least_of(2 * (low + room), value))
+    low, high = ring.inner_limits
+    if ring.inner_radius > high:
+        raise ParameterError("inner_diameter", value, "inside_beyond_pins", most_of(2 * high, value))
+    if ring.inner_radius < low:
+        raise ParameterError("inner_diameter", value, "inside_buries_pins", least_of(2 * low, value))

@@ -256,6 +256,21 @@ def test_lobes_keep_off_the_inside_of_their_ring() -> None:
     assert mate.findings() == ()
     (near,) = matings(pair("cycloidal_pair", PINS | {"inner_diameter": 81.9}, DISC))
     assert [(f.code, f.value, f.limit) for f in near.findings()] == [("lobes_reach_ring", 81.9, pytest.approx(82.0))]
+    # an inside that nobody gave yields: 4.9 for two eccentricities against pins of 4
+    (free,) = matings(pair("cycloidal_pair", PINS, DISC))
+    assert (free.findings(), free.ring.inner_radius) == ((), pytest.approx(41.4))
+    assert free.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.0, abs=1e-9)
+    # and no ring whose pins are thinner than that clears them: the eccentricity that is told just does
+    thin = {"pin_diameter": 4.0}
+    (far,) = matings(pair("cycloidal_pair", PINS | thin, DISC | thin))
+    (finding,) = far.findings()
+    assert (finding.code, finding.value) == ("lobes_beyond_pins", 2.5)
+    assert far.contact(0.0, 0.0, None).worst.gap == pytest.approx(40 - 43)
+    (near,) = matings(pair("cycloidal_pair", PINS | thin, DISC | thin | {"eccentricity": finding.limit - 1e-9}))
+    assert near.findings() == ()
+    # 2 e from the valley to the top, less what the pins stand in: their hold is 2 % of their diameter
+    assert finding.limit == pytest.approx((2 + 2 - 0.08) / 2)
+    (near,) = matings(pair("cycloidal_pair", PINS | {"inner_diameter": 81.9}, DISC))
     beside = matings(pair("cycloidal_pair", PINS | {"pins": "holes"}, DISC))[0]
     assert (beside.findings(), beside.has_contact, beside.height) == ((), False, 10.0)
     assert (near.has_contact, near.height) == (True, 0.0)
