@@ -99,14 +99,8 @@ def _check_known(scene: SceneFile, source: str, only_parts: list[str], only_form
             if name not in known:
                 several = [one for one in re.split(r"[\s,;]+", name) if one in known]
                 if len(several) > 1:
-                    raise SceneError(
-                        source,
-                        option,
-                        name,
-                        "one_at_a_time",
-                        None,
-                        asked=" ".join(f"{option} {one}" for one in several),
-                    )
+                    each = " ".join(f"{option} {one}" for one in several)
+                    raise SceneError(source, option, name, "one_at_a_time", None, asked=each)
                 raise SceneError(source, option, name, code, meant(name, known), known=known)
 
 

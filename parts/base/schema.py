@@ -139,28 +139,34 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         where, value = f"{where}.{name}", value[name]
     nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
     allowed = _with_form(allowed, message, kind, keys, table)
-    if wrong_type:
-        may_be_parted = {"float", "array"} & {*wrong_type.group(1).split(" | ")}
-        if may_be_parted and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
-            return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
-        is_text = {*wrong_type.group(1).split(" | ")} - {"null"} == {"str"}
-        if is_text and isinstance(value, list) and (listed_in := re.match(r"(exports|mates|drives)\[", where)):
-            return SceneError(source, where, value, "one_for_each", None, table=listed_in[1])
-        if is_text and type(value) in (int, float) and (not words or format_value(value) in words):
-            quoted = format_value(format_value(value))
-            code = "number_not_quoted" if allowed is None else "number_not_quoted_of"
-            return SceneError(source, where, value, code, None, last=keys[-1], quoted=quoted, allowed=allowed)
-        if nearest is None and not keys[-1].isdigit():
-            nearest = _number_meant(value, _types_of(_owner(kind, keys[:-1], table)).get(keys[-1]))
-        # a number in place of a table that has a plain key beside it: bore and bore_diameter
-        if type(value) in (int, float) and has_key(_owner(kind, keys[:-1], table), f"{keys[-1]}_diameter"):
-            nearest = Nearest(f"{keys[-1]}_diameter", "meant")
-        tables = tables_of(field) if (field := _field(_owner(kind, keys[:-1], table), keys[-1])) else []
-        if nearest is None and tables and "object" in wrong_type.group(1):
-            nearest = Nearest(f"{keys[-1]} = {table_line(tables[0])}", "like")
-        code = "wrong_type" if allowed is None else "wrong_type_of"
-        return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
-    return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
+    if wrong_type is None:
+        return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
+    types, owner = wrong_type.group(1), _owner(kind, keys[:-1], table)
+    may_be_parted = {"float", "array"} & {*types.split(" | ")}
+    if may_be_parted and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
+        return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
+    is_text = {*types.split(" | ")} - {"null"} == {"str"}
+    if is_text and isinstance(value, list) and (listed_in := re.match(r"(exports|mates|drives)\[", where)):
+        return SceneError(source, where, value, "one_for_each", None, table=listed_in[1])
+    if is_text and type(value) in (int, float) and (not words or format_value(value) in words):
+        quoted = format_value(format_value(value))
+        code = "number_not_quoted" if allowed is None else "number_not_quoted_of"
+        return SceneError(source, where, value, code, None, last=keys[-1], quoted=quoted, allowed=allowed)
+    code = "wrong_type" if allowed is None else "wrong_type_of"
+    nearest = _of_type(value, types, owner, keys[-1])
+    return SceneError(source, where, value, code, nearest, type=type_words(types), allowed=allowed)
+
+
+def _of_type(value: object, types: str, owner: type[Struct], name: str) -> Nearest | None:
+    """What was probably meant by a value where a key, or a place of its list, holds other ``types``, or nothing."""
+    # a number in place of a table that has a plain key beside it: bore and bore_diameter
+    if type(value) in (int, float) and has_key(owner, f"{name}_diameter"):
+        return Nearest(f"{name}_diameter", "meant")
+    if not name.isdigit() and (number := _number_meant(value, _types_of(owner).get(name))):
+        return number
+    field = _field(owner, name)
+    tables = tables_of(field) if field and "object" in types else []
+    return Nearest(f"{name} = {table_line(tables[0])}", "like") if tables else None
 
 
 # a number in quotes, a fraction or a share, with a sign of print, with its unit or with what has slipped in about it

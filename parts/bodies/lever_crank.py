@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import GeometryError, ParameterError
 from geometry.base.record import Record
 from parts.base.kind import Others, Report
-from parts.base.schema import value_at
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline
 from parts.keys.base import part_mm, start
 from parts.keys.levers import MECHANISM, MechanismTable, turning_levers
@@ -77,17 +76,15 @@ def mechanism_quantities(levers: Levers) -> dict[str, float]:
 
 def _edges(keys: LeverCrankSpec, length: float) -> tuple[Edge, ...]:
     """The hull of both ends."""
-    from geometry.base.errors import GeometryError
     from geometry.solids.plate import belt
 
     try:
         return belt((0j, keys.boss_diameter / 2), (length + 0j, keys.width / 2))
     except GeometryError as refusal:
-        most = 2 * length
         name = "width" if keys.width > keys.boss_diameter else "boss_diameter"
-        other = min(keys.width, keys.boss_diameter)
-        last = (other + most) * (1 - 1e-6)
-        raise ParameterError.beyond(name, float(str(value_at(keys, name))), "end_within_the_other", last) from refusal
+        less, given = sorted((keys.width, keys.boss_diameter))
+        last = (less + 2 * length) * (1 - 1e-6)
+        raise ParameterError.beyond(name, given, "end_within_the_other", last) from refusal
 
 
 LEVER_CRANK = LeverCrankKind()

@@ -36,8 +36,6 @@ def _length(text: str) -> Meta:
 
 _FIRST = Meta(description="what A joins: stone in a lever, rod and rocker, slider")
 _FIRST_SIDE = Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
-
-
 MECHANISM = Meta(description="the mechanism that it turns; its x axis is that of the scene")
 
 

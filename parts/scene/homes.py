@@ -30,8 +30,7 @@ def at_home(refusal: SceneError, raw: Tables, plain: Mapping[str, type[Struct]])
     """
     steps = [str(step) for step in steps_of(refusal.key)]
     if steps and len(steps) < 4 and steps[0] in map(_table, plain):
-        refusal.numbers.setdefault("see", "")
-        refusal.numbers["see"] = refusal.numbers["see"] or f"higherpair new {steps[0]}"
+        refusal.numbers["see"] = refusal.numbers.get("see") or f"higherpair new {steps[0]}"
     own, key = "" if len(steps) < 2 else steps[0], steps[-1] if steps else ""
     near, alike = refusal.nearest, SYNONYMS.get(key.lower(), [])
     sure = near and (near.side == "same" or near.value in alike)

@@ -51,7 +51,8 @@ def test_one_pair_has_the_fewest_teeth_of_all(ratio: str, share: str) -> None:
 
 @pytest.mark.parametrize("coaxial", [False, True])
 @pytest.mark.parametrize(
-    ("ratio", "share"), [("7.389", "0.01"), ("9", "0"), ("1.6", "0.002"), ("0.125", "0.01"), ("5", "0.1")]
+    ("ratio", "share"),
+    [("7.389", "0.01"), ("9", "0"), ("1.6", "0.002"), ("0.125", "0.01"), ("5", "0.1"), ("18/13", "0")],
 )
 def test_two_pairs_have_the_fewest_teeth_of_all(ratio: str, share: str, coaxial: bool) -> None:
     found = teeth_for(Fraction(ratio), 2, LEAST, MOST, float(share), coaxial=coaxial)
