@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, field
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError
-from parts.base.content import NotAFileError, content
+from parts.base.content import content_beside
 from parts.base.kind import Kind, Others
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import degrees, mm
@@ -96,20 +96,7 @@ STEP_PART = StepPart()
 
 def _read(name: str, folder: Path) -> str:
     """The text of a file in a folder, or in one below it."""
-    told = PurePosixPath(name.replace("\\", "/"))
-    if told.is_absolute() or ":" in name or ".." in told.parts:
-        raise ParameterError("file", name, "file_elsewhere")
-    try:
-        path = (folder / told).resolve()
-        if not path.is_relative_to(folder.resolve()):
-            raise ParameterError("file", name, "file_elsewhere")
-        raw = content(path, MOST_BYTES)
-    except FileNotFoundError:
-        raise ParameterError("file", name, "no_such_file") from None
-    except (NotAFileError, OSError, ValueError) as error:
-        raise ParameterError(
-            "file", name, "unreadable", None, why=getattr(error, "strerror", None) or str(error)
-        ) from None
+    raw = content_beside(name, folder, MOST_BYTES)
     if len(raw) > MOST_BYTES:
         raise ParameterError("file", name, "too_large_step", None, most=MOST_BYTES)
     return raw.decode("ascii", "replace").replace("\ufffd", "?")

@@ -63,7 +63,7 @@ MotionTable = Annotated[
     Meta(
         min_length=3,
         max_length=2000,
-        description="in place of phases: [cam angle deg, lift mm or deg]",
+        description='in place of phases: [cam angle deg, lift mm or deg], or { file = "lift.csv" }',
         examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
     ),
 ]

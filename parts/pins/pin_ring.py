@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 _INNER_DIAMETER = part_mm(
-    "inside of the ring; default: the pin circle, wider where a disc needs it (holes: free of them)",
+    "inside of the ring; default: the pin circle, or what clears a disc (holes: free)",
     least=0,
     example=83.0,
 )

@@ -190,6 +190,10 @@ PLAIN: dict[str, type[Struct]] = {
 
 def _validated(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     _check_tables(raw, source)
+    if any(isinstance(value, dict) for value in _named_values(raw, "motion_table")):
+        from parts.scene.motion_files import with_motions
+
+        raw = with_motions(raw, source)
     if language is not None:
         raw = {**raw, "scene": {**raw.get("scene", {}), "language": language}}
     raw, origins, typed = plain_tables(raw, source)
@@ -197,6 +201,13 @@ def _validated(raw: dict[str, Any], source: str, name: str, language: str | None
         scene = _scene_of(in_language(raw, source), source, name, origins)
     scene.typed = typed
     return scene
+
+
+def _named_values(raw: dict[str, Any], key: str) -> Iterator[Any]:
+    """What a key is in the parts and assemblies of a scene."""
+    parts, told = raw.get("parts"), raw.get("assemblies")
+    tables = [*(parts.values() if isinstance(parts, dict) else ()), *(told if isinstance(told, list) else ())]
+    return (table[key] for table in tables if isinstance(table, dict) and key in table)
 
 
 @contextmanager

@@ -59,7 +59,7 @@ _PLATE_DIAMETER = part_mm("width of a flat or mushroom face about coupler_point"
 _MOTION_TABLE = Meta(
     min_length=3,
     max_length=2000,
-    description="in place of phases: [cam angle deg, travel mm or deg]",
+    description='in place of phases: [cam angle deg, travel mm or deg], or { file = "lift.csv" }',
     examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
 )
 _FOLLOWER_DIRECTION = degrees(

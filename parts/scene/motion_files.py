@@ -1,0 +1,93 @@
+"""Tables of a cam's motion from files of the user's: ``motion_table = { file = "lift.csv" }`` becomes its rows.
+
+Two columns, the cam angle and the lift or swing, as spreadsheets write them: between semicolons or tabs with decimal
+commas or points, between commas or blanks with points; lines of words before the first row are passed over.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+from geometry.base.errors import ParameterError
+from parts.base.content import content_beside
+from parts.base.refusal import placed
+from parts.scene.files import text_of
+
+KEY = "motion_table"
+_MOST_BYTES = 1_000_000
+# a thousand has a blank of any kind, a minus may be printed
+_BLANKS, _MINUS = re.compile(r"[\s'\u2019]"), str.maketrans("\u2212\u2013", "--")
+
+
+def with_motions(raw: dict[str, Any], source: str) -> dict[str, Any]:
+    """The tables of a scene with the rows of those files in place of their names.
+
+    Raises
+    ------
+    SceneError
+        A file that is not there, or a line of it that is no row.
+    """
+    made = dict(raw)
+    if isinstance(parts := raw.get("parts"), dict):
+        made["parts"] = {key: _with_rows(table, source, f"parts.{key}") for key, table in parts.items()}
+    if isinstance(told := raw.get("assemblies"), list):
+        made["assemblies"] = [_with_rows(table, source, f"assemblies[{k}]") for k, table in enumerate(told, 1)]
+    return made
+
+
+def _with_rows(table: Any, source: str, place: str) -> Any:
+    named = table.get(KEY) if isinstance(table, dict) else None
+    if not (isinstance(named, dict) and [*named] == ["file"] and isinstance(name := named["file"], str)):
+        return table
+    try:
+        return {**table, KEY: rows_of(content_beside(name, Path(source).parent, _MOST_BYTES), name)}
+    except ParameterError as refusal:
+        raise placed(source, f"{place}.{KEY}", refusal) from None
+
+
+def rows_of(raw: bytes, name: str) -> list[list[float]]:
+    """The rows of a file; ``name``: as it is told.
+
+    Raises
+    ------
+    ParameterError
+        ``file``: it is too large, has no row, or a line that is none.
+    """
+    if len(raw) > _MOST_BYTES:
+        raise ParameterError("file", name, "too_large_step", None, most=_MOST_BYTES)
+    try:
+        text = text_of(raw)
+    except UnicodeDecodeError:
+        # of a code page only the words of a head are strange
+        text = raw.decode("latin-1")
+    lines = [(number, line.strip()) for number, line in enumerate(text.replace('"', "").splitlines(), 1)]
+    lines = [(number, line) for number, line in lines if line and not line.startswith(("#", "sep="))]
+    told = "\n".join(line for _, line in lines if any(c.isdigit() for c in line))
+    between = next((mark for mark in ";\t" if mark in told), "," if re.search(r"\d\s*,\s*[-+.\d]", told) else None)
+    if between == "," and re.search(r"(?m)^[^\s,]+(,\d+)?[ ]+[-\u2212]?\d+(,\d+)?$", told):
+        # decimal commas between blanks
+        between = None
+    rows: list[list[float]] = []
+    for number, line in lines:
+        fields = line.split(between)
+        while fields and not fields[-1].strip():
+            fields.pop()
+        row = [_number(field, comma=between != ",") for field in fields]
+        if len(row) == 2 and None not in row:
+            rows.append([value for value in row if value is not None])
+        elif rows or None not in row:
+            raise ParameterError("file", name, "no_row_of_motion", None, line=number, text=line[:60])
+    if not rows:
+        raise ParameterError("file", name, "no_rows_of_motion")
+    return rows
+
+
+def _number(field: str, *, comma: bool) -> float | None:
+    """What a field tells; None: no number."""
+    told = _BLANKS.sub("", field).translate(_MINUS)
+    try:
+        return float(told.replace(",", ".") if comma else told)
+    except ValueError:
+        return None
