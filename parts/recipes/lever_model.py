@@ -133,7 +133,7 @@ class _Making(Making):
         self.dowels: list[_Dowel] = []
         # rings by name, with the link on whose dowel they lie, and their layer
         self.rings: list[tuple[str, str, int]] = []
-        self.guides: list[tuple[complex, complex, str]] = []
+        self.guides: list[tuple[complex, complex]] = []
         self._first()
         self._second()
         self._check_walls()
@@ -161,7 +161,7 @@ class _Making(Making):
         self._joint(name, link, at, (0, layer), key, "washer")
         found, way = travel(self.levers, "slider"), cmath.exp(1j * guide.angle)
         ends = [guide.on + reach * way for reach in (found.least - _SLACK, found.greatest + _SLACK)]
-        self.guides.append((ends[0], ends[1], key))
+        self.guides.append((ends[0], ends[1]))
 
     def _first(self) -> None:
         """The crank, and what its pin joins."""
@@ -254,11 +254,6 @@ class _Making(Making):
                 apart = _to_way(np.array(at), (np.array(link.slot[0]), np.array(link.slot[1])))
                 if apart < (wide + self.pin_size + self.keys.clearance) / 2 + _WALL:
                     raise self._refused("no_wall_between_holes", [key])
-        for first, last, key in self.guides:
-            for dowel in (one for one in self.dowels if one.link == "0"):
-                apart = _to_way(np.array(dowel.at), (np.array(first), np.array(last)))
-                if apart < (self.axle_size + self.pin_size + self.keys.clearance) / 2 + _WALL:
-                    raise self._refused("slot_meets_axle", [key], axle=dowel.name)
 
     def _solids(self) -> Iterator[_Solid]:
         """All that moves or stands above the frame, layer by layer."""
@@ -288,9 +283,10 @@ class _Making(Making):
         for one, other in combinations(self._solids(), 2):
             if not range(max(one.layers.start, other.layers.start), min(one.layers.stop, other.layers.stop)):
                 continue
+            # a layer has one link, which stands before all rings
             places = [[moving[solid.number][0] + end * moving[solid.number][1] for end in solid.ends]
                       for solid in (one, other)]  # fmt: skip
-            apart = float(_between(*places).min()) - one.radius - other.radius
+            apart = float(_off_hull(places[1][0], places[0]).min()) - one.radius - other.radius
             if apart < _APART:
                 names = [key for key in (other.key, one.key) if key]
                 raise self._refused("links_meet", [*names, "link_width"], one=one.name, other=other.name, least=_APART)
@@ -358,13 +354,12 @@ class _Making(Making):
         wide = self.pin_size + self.keys.clearance
         axles = [dowel.at for dowel in self.dowels if dowel.link == "0"]
         about = [(at, self.axle_size / 2) for at in axles]
-        about += [(end, wide / 2) for first, last, _ in self.guides for end in (first, last)]
+        about += [(end, wide / 2) for first, last in self.guides for end in (first, last)]
         reach = [(at.real + sign * (half + _BESIDE), at.imag + sign * (half + _BESIDE)) for at, half in about
                  for sign in (-1, 1)]  # fmt: skip
         (left, right), (low, high) = ((math.floor(min(xs)), math.ceil(max(xs))) for xs in zip(*reach, strict=True))
         slots = [
-            {"start": place(first, 0.0)[:2], "end": place(last, 0.0)[:2], "width": wide}
-            for first, last, _ in self.guides
+            {"start": place(first, 0.0)[:2], "end": place(last, 0.0)[:2], "width": wide} for first, last in self.guides
         ]
         lengths = {"axle_3": ("O1O3", self.mechanism.frame_length), "axle_5": ("O3O5", self.mechanism.pivot_distance)}
         found = [f"{name} {length:.6g}" for axle, (name, length) in lengths.items()
@@ -434,16 +429,12 @@ def _to_way(at: Complex, way: tuple[Complex, Complex]) -> Real:
     return np.asarray(np.abs(at - start - share * along))
 
 
-def _between(one: Sequence[Complex], other: Sequence[Complex]) -> Real:
-    """How far two figures of straight ways between all of their corners are apart, mm; 0 where ways cross."""
-    found = []
-    for a, b in combinations(one, 2) if len(one) > 1 else [(one[0], one[0])]:
-        for c, d in combinations(other, 2) if len(other) > 1 else [(other[0], other[0])]:
-            near = [_to_way(a, (c, d)), _to_way(b, (c, d)), _to_way(c, (a, b)), _to_way(d, (a, b))]
-            sides = [((q - p).conjugate() * (r - p)).imag * ((q - p).conjugate() * (s - p)).imag
-                     for p, q, r, s in ((a, b, c, d), (c, d, a, b))]  # fmt: skip
-            found.append(np.where((sides[0] < 0) & (sides[1] < 0), 0.0, np.min(near, axis=0)))
-    return np.asarray(np.min(found, axis=0))
+def _off_hull(at: Complex, corners: Sequence[Complex]) -> Real:
+    """How far places are from the hull of up to three corners, mm; 0 within."""
+    edges = [*zip(corners, [*corners[1:], corners[0]], strict=True)]
+    sides = np.array([((b - a).conjugate() * (at - a)).imag for a, b in edges])
+    within = np.abs(np.sign(sides).sum(axis=0)) == 3
+    return np.where(within, 0.0, np.min([_to_way(at, edge) for edge in edges], axis=0))
 
 
 LEVER_MODEL = Recipe(LeverModelKeys, lambda keys: _Making(keys).all())

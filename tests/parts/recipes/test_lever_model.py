@@ -327,6 +327,12 @@ REFUSED: list[tuple[Keys, Keys, str, str]] = [
     (SLOTTED | {"arm_length": 60.0}, {}, "mechanism.arm_length = 60.0", "at least"),
     (CRANK_SLIDER | {"coupler_length": 29.5}, {}, "mechanism.coupler_length = 29.5", "at least"),
     (CRANK_SLIDER | {"frame_length": 50.0}, {}, "mechanism.frame_length = 50.0", ""),
+    # the slot of the frame would meet its hole for O1
+    (CRANK_SLIDER | {"coupler_length": 24.0, "guide_height": 0.0}, {}, "mechanism.coupler_length = 24.0", "at least"),
+    # the axle O5 would stand in the middle of a bent lever, off all of its edges
+    (BENT | {"frame_length": 170.0, "coupler_length": 123.0, "lever_length": 96.0, "arm_length": 121.0,
+             "arm_angle_deg": 90.0, "rod_length": 109.0, "rocker_length": 95.0, "pivot_distance": 49.0,
+             "pivot_angle_deg": -179.0, "second_side": -1}, {}, "mechanism.pivot_distance = 49.0", ""),
     ({"first": "rods", "crank_length": 20.0}, {}, "mechanism.frame_length", ""),
 ]  # fmt: skip
 
