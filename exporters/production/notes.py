@@ -41,7 +41,7 @@ def write_notes(plan: Plan, folder: Path) -> Path:
     if plan.scene.steps:
         names = names_of(plan.scene.instances, plan.parts)
         lines.append("")
-        for step in steps_told(plan.scene.steps, names, scene.language):
+        for step in steps_told(plan.scene.steps, names, scene.language, plan.scene.mates):
             lines += wrap(step, _LINE, subsequent_indent="    ")
     if rows := stock_rows(plan.scene, plan.parts):
         lines += ["", told.text("To be cut from rods and tubes, mm (diameter × length):"), *_stock(plan, rows, told)]

@@ -8,6 +8,7 @@ from typing import Any
 
 from msgspec.structs import asdict
 
+from parts.base.mate import MateKeys
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Words, counted, filled, listed, message, words
 from parts.scene.assembly_order import order_found
@@ -63,13 +64,19 @@ def order_lines(found: Mapping[str, Any], told: Words) -> Iterator[str]:
     yield told.text(text, steps=steps, pairs=pairs)
 
 
-def steps_told(steps: Sequence[StepSpec], names: Mapping[str, str], language: str) -> Iterator[str]:
-    """The order of assembly, a line for each step."""
+def steps_told(
+    steps: Sequence[StepSpec], names: Mapping[str, str], language: str, mates: Sequence[MateKeys] = ()
+) -> Iterator[str]:
+    """The order of assembly, a line for each step; which of them ``mates`` hold where they come to."""
     told = words(language)
+    held = {frozenset((mate.first, mate.second)) for mate in mates if mate.__struct_config__.tag == "fixed"}
     for number, step in enumerate(steps, 1):
         things = ", ".join(in_rows(names.get(name, name) for name in step.bring))
         to = names.get(step.to, step.to)
-        yield told.text("{number}. {things} to {to}: {way}", number=number, things=things, to=to, way=_way(step))
+        way = _way(step)
+        if all({name, step.to} in held for name in step.bring):
+            way = message("{way}, held fast", way=way)
+        yield told.text("{number}. {things} to {to}: {way}", number=number, things=things, to=to, way=way)
 
 
 def _way(step: StepSpec) -> Message:

@@ -70,6 +70,64 @@ def test_everything_has_its_lines_in_their_order(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+FAST = """
+[parts.plate]
+kind = "plate"
+width = 40.0
+height = 20.0
+face_width = 3.0
+holes = [{ at = [0.0, 0.0], diameter = 5.0 }]
+
+[parts.pin]
+kind = "pin"
+diameter = 5.0
+length = 10.0
+
+[parts.ring]
+kind = "pin"
+diameter = 9.0
+bore_diameter = 5.2
+length = 3.0
+
+[[mates]]
+kind = "fixed"
+first = "plate"
+second = "pin"
+
+[[mates]]
+kind = "coaxial"
+first = "pin"
+second = "ring"
+height = 3.0
+
+[[steps]]
+bring = ["pin"]
+to = "plate"
+along = [0.0, 0.0, -1.0]
+
+[[steps]]
+bring = ["ring"]
+to = "plate"
+along = [0.0, 0.0, -1.0]
+
+[[exports]]
+format = "stl"
+"""
+
+
+@pytest.mark.parametrize(
+    ("head", "lines"),
+    [
+        ("", ["1. pin to plate: from above, held fast", "2. ring to plate: from above"]),
+        ('[scene]\nlanguage = "uk"\n', ["1. pin → plate: зверху, нерухомо", "2. ring → plate: зверху"]),
+    ],
+    ids=["en", "uk"],
+)
+def test_what_a_step_holds_fast_is_told_and_what_turns_is_not(head: str, lines: list[str], tmp_path: Path) -> None:
+    """A pin glued into a plate, and a ring that turns on it."""
+    assert [line for line in told(FAST, tmp_path, head) if line[:2] in ("1.", "2.")] == lines
+
+
 def test_what_there_is_none_of_has_no_lines(tmp_path: Path) -> None:
     """A sheet with numbers alone needs no word; a board without a kerf asks for none; no rods, no lengths."""
     filled = SHEETS.split("[[exports]]\n")[2]
