@@ -437,13 +437,14 @@ def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
 
 
 def _check(options: argparse.Namespace) -> int:
+    from exporters.command.tables import part_notes
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict, names_of
     from parts.scene.checks import check_solids, check_workspace
     from parts.scene.load import in_keys_of_file, make_parts
     from parts.scene.placing import place
 
-    def checked(address: str) -> tuple[dict[str, Any], SceneFile, dict[str, str]]:
+    def checked(address: str) -> tuple[dict[str, Any], SceneFile, dict[str, str], list[str]]:
         scene = _scene(address, options)
         with in_keys_of_file(scene.origins):
             parts, matings = make_parts(scene, address)
@@ -455,12 +456,12 @@ def _check(options: argparse.Namespace) -> int:
             placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked.transmission_error,
             workspace=asked.workspace, steps=scene.steps, names=names,
         )  # fmt: skip
-        return checks, scene, names
+        return checks, scene, names, part_notes(parts.values(), words(scene.scene.language))
 
     found, refused = _each(options.scenes, checked, lambda: _language(options))
     if options.json:
         _print_json(options.scenes, [checks for checks, *_ in found])
-    for checks, scene, names in found:
+    for checks, scene, names, notes in found:
         if options.json or (options.quiet and not has_bad_verdict(checks)):
             continue
         language = scene.scene.language
@@ -470,7 +471,8 @@ def _check(options: argparse.Namespace) -> int:
             from exporters.production.order import steps_told
 
             lines += steps_told(scene.steps, names, language)
-        print("\n".join(title + (lines or [words(language).text("no mates; no solids run into each other")])))
+        lines = lines or [words(language).text("no mates; no solids run into each other")]
+        print("\n".join(title + lines + notes))
     return FAILED if any(has_bad_verdict(checks) for checks, *_ in found) else WRONG_INPUT if refused else DONE
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
@@ -89,13 +89,17 @@ def _remarks(written: Sequence[Written], parts: Sequence[Part], told: Words) -> 
     for item in written:
         for finding in item.findings:
             labels.setdefault(told.say(finding_message(finding)), []).extend(item.job.about(finding))
+    return lines + part_notes(parts, told, labels)
+
+
+def part_notes(parts: Iterable[Part], told: Words, labels: dict[str, list[str]] | None = None) -> list[str]:
+    """What was noticed on parts, beside what is of others (``labels``: by its words), each once."""
+    labels = {} if labels is None else labels
     for part in parts:
         for finding in part.findings:
             labels.setdefault(told.say(finding_message(finding)), []).append(part.id)
-    for text, own in labels.items():
-        names = ", ".join(dict.fromkeys(own))
-        lines.append(told.text("note: {text}", text=f"{names}: {text}"))
-    return lines
+    named = ((", ".join(dict.fromkeys(own)), text) for text, own in labels.items())
+    return [told.text("note: {text}", text=f"{names}: {text}") for names, text in named]
 
 
 def verify_table(results: list[Recheck], told: Words) -> None:

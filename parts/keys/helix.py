@@ -121,6 +121,11 @@ def helix_quantities(keys: ToothedKeys, reference_radius: float) -> dict[str, fl
     return {"normal_pitch": math.pi * keys.module, "lead": helix.lead(reference_radius)}
 
 
+def hand_finding(keys: ToothedKeys) -> tuple[Finding, ...]:
+    """The remark that straight teeth have no hand."""
+    return (Finding("hand_of_straight_teeth", 0.0, 0.0),) if keys.hand != "right" and not keys.helix_angle_deg else ()
+
+
 def section_finding(keys: ToothedKeys) -> tuple[Finding, ...]:
     """The remark that a flat outline of helical teeth is their transverse section."""
     return (Finding("transverse_section", keys.helix_angle_deg, 0.0),) if keys.helix_angle_deg else ()

@@ -11,6 +11,7 @@ from itertools import product
 from math import prod
 from typing import Any
 
+from geometry.base.errors import Nearest
 from geometry.base.record import Record
 from parts.base.refusal import SceneError, meant
 from parts.pages.inputs import toml_value
@@ -106,6 +107,11 @@ def _range(key: str, text: str, ends: Sequence[str]) -> list[Any]:
         steps = Decimal(-1)
     if not 0 <= steps < MOST_VARIANTS:
         raise SceneError(PLACE, key, text.strip(), "no_range", most=MOST_VARIANTS)
+    # a step that was typed may pass over the end; steps of 1 that nobody typed may not
+    if len(ends) == 2 and steps != int(steps):
+        raise SceneError(
+            PLACE, key, text.strip(), "range_misses_end", Nearest(f"{ends[0]}:{first + int(steps)}", "meant")
+        )
     number = int if all(re.fullmatch(r"[+-]?\d+", e) for e in ends) else float
     return [number(first + k * step) for k in range(int(steps) + 1)]
 

@@ -12,7 +12,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import degrees, mm
 from parts.keys.cutter import RackName
-from parts.keys.helix import ToothedKeys, checked_teeth, helix_of, section_finding, told_in_keys
+from parts.keys.helix import ToothedKeys, checked_teeth, hand_finding, helix_of, section_finding, told_in_keys
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
@@ -106,7 +106,8 @@ class RackKind(Kind[RackSpec, "Rack"]):
             "tip_tooth_thickness": thing.tip_thickness,
             **({"normal_pitch": math.pi * keys.module} if keys.helix_angle_deg else {}),
         }
-        return Report(rounding_finding(keys), quantities=quantities, flat_findings=section_finding(keys))
+        found = (*rounding_finding(keys), *hand_finding(keys))
+        return Report(found, quantities=quantities, flat_findings=section_finding(keys))
 
 
 RACK = RackKind()

@@ -15,6 +15,7 @@ from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
+    hand_finding,
     helix_of,
     section_finding,
     told_in_keys,
@@ -214,7 +215,7 @@ class RingGearKind(Kind[RingGearSpec, "RingGear"]):
 
         quantities = {**tooth_quantities(keys, thing, tip_thickness(thing)), **_cutter_quantities(keys, thing)}
         tip = tip_finding(thing, keys.module)
-        found = (*(() if tip is None else (tip,)), *findings(thing))
+        found = (*(() if tip is None else (tip,)), *hand_finding(keys), *findings(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
 

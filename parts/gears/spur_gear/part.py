@@ -36,6 +36,7 @@ from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
+    hand_finding,
     helix_of,
     section_finding,
     told_in_keys,
@@ -206,7 +207,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""
         helix = math.radians(keys.helix_angle_deg)
-        found = (*rack_findings(keys, thing), *_chamfer_finding(keys), *findings(thing, helix))
+        found = (*rack_findings(keys, thing), *hand_finding(keys), *_chamfer_finding(keys), *findings(thing, helix))
         quantities = tooth_quantities(keys, thing, tip_thickness(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 

@@ -89,6 +89,8 @@ def test_a_key_within_a_table() -> None:
     # before: a traceback of numbers beyond what decimal ones hold
     (["gear.module=1:1e9999999999"], "no_range", "gear.module"),
     (["gear.module=0:1:1e-9999999"], "no_range", "gear.module"),
+    # ends are included: 12.5 was left out without a word
+    (["gear.number_of_teeth=10:12.5"], "range_misses_end", "gear.number_of_teeth"),
     (["gear.module=1,1.0"], "listed_twice", "gear.module"),
     (["gear.material=Steel,steel"], "listed_twice", "gear.material"),
     (["gear.module=1", "gear.module=2"], "given_twice", "gear.module"),

@@ -1,0 +1,43 @@
+"""What is noticed on a part is told by ``check`` as by ``build``, in the same words."""
+
+from pathlib import Path
+
+import pytest
+
+from exporters.command.cli import main
+from tests.exporters.making import write_scene
+
+GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 8.0}
+RING = GEAR | {"kind": "ring_gear", "number_of_teeth": 40}
+RACK = GEAR | {"kind": "rack"}
+PULLEY = {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 20, "face_width": 8.0, "outer_diameter": 12.0}
+
+
+def notes_of(capsys: pytest.CaptureFixture[str], *words: str) -> list[str]:
+    assert main(list(words)) == 0
+    return [line for line in capsys.readouterr().out.splitlines() if line.startswith("note: ")]
+
+
+@pytest.mark.parametrize(
+    ("part", "told"),
+    [
+        (PULLEY, "the outer diameter is 12 mm, the belt's pitch asks for 12.224 mm"),
+        *((part | {"hand": "left"}, "straight teeth have no hand") for part in (GEAR, RING, RACK)),
+    ],
+)
+def test_check_tells_what_build_tells(
+    part: dict[str, object], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = str(write_scene(tmp_path / "s.toml", {"p": part}, [{"format": "dxf"}]))
+    built = notes_of(capsys, "build", scene, "--out", str(tmp_path / "out"))
+    assert notes_of(capsys, "check", scene) == built
+    assert [line for line in built if told in line]
+
+
+@pytest.mark.parametrize("part", [GEAR, RING, RACK])
+def test_helical_teeth_of_a_hand_have_no_such_note(
+    part: dict[str, object], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    helical = part | {"hand": "left", "helix_angle_deg": 15.0}
+    scene = str(write_scene(tmp_path / "s.toml", {"p": helical}, [{"format": "dxf"}]))
+    assert not [line for line in notes_of(capsys, "check", scene) if "hand" in line]
