@@ -226,8 +226,9 @@ class _Making(Making):
 
         def sought() -> ParameterError:
             found = []
-            # at another scale all lengths are others
-            for name in dict.fromkeys([*names, *(["scale"] if self.keys.scale != 1 else [])]):
+            # at another scale all lengths are others; those of the assignment are nobody's to change
+            own, scale = [n for n in names if value_at(self.keys, n) is not None], ["scale"] * (self.keys.scale != 1)
+            for name in dict.fromkeys([*own, *scale, *names]):
                 given = value_at(self.keys, name)
                 if given is None:
                     # of the assignment

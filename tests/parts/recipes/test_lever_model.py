@@ -426,11 +426,14 @@ def test_links_of_another_mechanism_are_refused(
     assert said in capsys.readouterr().err
 
 
-def test_a_scale_at_which_links_are_too_short_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """By the scale, which alone cures it; what is offered is made."""
-    keys = '[[assemblies]]\nkind = "lever_model"\nassignment = 4\nscale = {}\n'
-    assert main(["check", str(written(tmp_path, keys.format(200.0)))]) == 2
-    found = re.search(r"assemblies\[1\].scale = 200.0: .* at most ([\d.]+) works", capsys.readouterr().err)
+@pytest.mark.parametrize(("chosen", "scale"), [("assignment = 4", 200.0), ('code = "5530"', 10.0)])
+def test_a_scale_at_which_links_are_too_short_is_refused(
+    chosen: str, scale: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By the scale, and by no length of the assignment; what is offered is made."""
+    keys = f'[[assemblies]]\nkind = "lever_model"\n{chosen}\nscale = {{}}\n'
+    assert main(["check", str(written(tmp_path, keys.format(scale)))]) == 2
+    found = re.search(rf"assemblies\[1\].scale = {scale}: .* at most ([\d.]+) works", capsys.readouterr().err)
     assert found
     assert main(["check", str(written(tmp_path, keys.format(found[1])))]) == 0
 
