@@ -270,10 +270,8 @@ def _rack_break(rack: Rack, shown: float, least: float) -> Break | None:
     kept, half, holes = max(shown, least), rack.length / 2, rack.holes
     if holes is not None:
         first = half - (holes.count - 1) / 2 * holes.spacing
-        kept = max(kept, first + (holes.spacing if holes.count > 1 else 0.0) + holes.diameter)
-        # one alone, or two, may stand in the middle
-        if holes.count < 4 and half - kept < half - first - (holes.count - 1) * holes.spacing + holes.diameter:
-            return None
+        # the other one of two stands at the other end
+        kept = max(kept, first + (holes.spacing if holes.count > 2 else 0.0) + holes.diameter)
     return Break(half - kept, _GAP * least) if kept < _KEPT * half else None
 
 

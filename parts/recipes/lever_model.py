@@ -36,7 +36,7 @@ from parts.keys.levers import (
     turning_levers,
 )
 from parts.mates.pages.lever_tasks import chosen
-from parts.recipes.making import WAYS, Making, hole, place
+from parts.recipes.making import WAYS, Making, check_play, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 if TYPE_CHECKING:
@@ -121,6 +121,7 @@ class _Making(Making):
     def __init__(self, keys: LeverModelKeys) -> None:
         super().__init__("lever_model", keys.plate_thickness, keys)
         self.keys = keys
+        check_play(keys.clearance, keys.pin_diameter, keys.axle_diameter)
         given, _ = chosen(keys.code, keys.assignment, keys.variant)
         own = {key: value for key, value in given.items() if key in MechanismTable.__struct_fields__}
         self.machine = convert(own | told(keys.mechanism), MechanismTable)

@@ -18,6 +18,7 @@ TOPIC = "ratio"
 _NEAR = (1, 3, 10, 40, 90)
 _RATIO = Meta(ge=1e-4, le=1e4, description="wanted ratio: turns of the first wheel for one of the last", examples=[3.2])
 _STAGES = Meta(ge=1, le=2, description="pairs in a row")
+_TOLERANCE = Meta(ge=0, le=50, description="how far the ratio may be off", extra={"unit": "%"})
 _COAXIAL = Meta(description="two stages of one distance: the last shaft in line with the first")
 
 
@@ -27,7 +28,7 @@ class RatioKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     ratio: Annotated[float, _RATIO]
     stages: Annotated[int, _STAGES] = 1
     coaxial: Annotated[bool, _COAXIAL] = False
-    ratio_tolerance_percent: Annotated[float, Meta(ge=0, le=50, description="how far the ratio may be off")] = 0.5
+    ratio_tolerance_percent: Annotated[float, _TOLERANCE] = 0.5
     least_teeth: Annotated[int, Meta(ge=3, le=300, description="least number of teeth of any wheel")] = 12
     most_teeth: Annotated[int, Meta(ge=3, le=300, description="greatest number of teeth of any wheel")] = 120
     module: Annotated[float, mm("module of all wheels, for their distances", least=0.01, most=1000)] = 1.0

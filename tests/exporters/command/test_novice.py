@@ -501,6 +501,7 @@ def test_why_no_row_of_a_catalogue_can_be_built_is_told(tmp_path: Path, capsys: 
         ("planetary_set", "teeth = [24, 24, 72]\nclearance = 40.0\n", "1.5"),
         ("planetary_set", "teeth = [24, 24, 72]\npin_diameter = 2.0\nclearance = 3.0\n", "0.5"),
         ("gear_pair_model", "teeth = [13, 21]\nclearance = 3.0\n", "1.5"),
+        ("lever_model", "assignment = 4\nscale = 8.0\nclearance = 3.0\n", "1"),
         ("power_table", "clearance = 3.0\n", "1"),
     ],
 )

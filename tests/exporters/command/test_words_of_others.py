@@ -60,8 +60,10 @@ def test_a_calculation_tells_it_too(capsys: pytest.CaptureFixture[str]) -> None:
     pair = ("calc", "gear-pair", "first.number_of_teeth=12", "second.number_of_teeth=24")
     assert run(*pair, "diametral_pitch=8") == 2
     assert "module = 3.175 is the same" in capsys.readouterr().err
-    assert run("calc", "spur", "number_of_teeth=12", "circular_pitch=pi") == 2
-    assert "is the same" not in capsys.readouterr().err
+    # what is no number, and what stands there already
+    for words in (("circular_pitch=pi",), ("module=2", "circular_pitch=6.5")):
+        assert run("calc", "spur", "number_of_teeth=12", *words) == 2
+        assert "is the same" not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -83,6 +83,7 @@ def test_the_page_tells_the_fewest_teeth_and_355_of_113(capsys: pytest.CaptureFi
         (("ratio=1000",), "ratio = 1000.0: no numbers of teeth within these limits have that ratio"),
         (("ratio=3", "coaxial=true"), "coaxial = true: is for two stages; false works"),
         (("ratio=1", "least_teeth=50", "most_teeth=20"), "at most 20 works"), ((), "ratio.ratio: is missing"),
+        (("ratio=3", 'ratio_tolerance_percent="1 %"'), "did you mean 1?"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused(capsys: pytest.CaptureFixture[str], words: tuple[str, ...], told: str) -> None:

@@ -19,6 +19,8 @@ CASES: dict[str, tuple[dict[str, Any], list[float]]] = {
     "plain": (LONG, [math.pi * 240, math.pi, 20.0, 9.5, 7.5]),
     "holes": (LONG | {"body_height": 20.0, "holes": HOLES},
               [math.pi * 240, math.pi, 20.0, 24.5, 22.5, 10.0, 90.0, 630.0, math.pi * 120 - 315.0, 6.6]),
+    "two holes": (LONG | {"body_height": 20.0, "holes": HOLES | {"count": 2, "spacing": 700.0}},
+                  [math.pi * 240, math.pi, 20.0, 24.5, 22.5, 10.0, 700.0, math.pi * 120 - 350.0, 6.6]),
     "helical": (LONG | {"helix_angle_deg": 20.0}, [*(x * math.pi / math.cos(math.radians(20.0)) for x in (240, 1)),
                                                    20.0, 9.5, 7.5]),
     "double": (LONG | {"helix_angle_deg": -20.0, "double_helical": True},
@@ -58,6 +60,20 @@ def test_both_ends_of_a_long_rack_are_left_and_its_sizes_are_whole(tmp_path: Pat
     assert 0.0 < gap < 0.1 * (right - left)
     # two brackets stand beside the sign of roughness
     assert len(space.query("ARC[layer=='THIN']")) == 2 + 4 * (2 if "helix_angle_deg" in part else 1)
+    # the waves go up from there without a break: two arcs each, which meet
+    waves = [
+        (complex(*arc.start_point.vec2), complex(*arc.end_point.vec2)) for arc in space.query("ARC[layer=='THIN']")
+    ]
+    for x in ends[1:3]:
+        (begun,) = [b if abs(a - complex(x, low)) < 1e-5 else a for a, b in waves
+                    if min(abs(a - complex(x, low)), abs(b - complex(x, low))) < 1e-5]  # fmt: skip
+        (high,) = [a if abs(b - begun) < 1e-5 else b for a, b in waves
+                   if min(abs(a - begun), abs(b - begun)) < 1e-5 and min(a.imag, b.imag) > low + 1e-3]  # fmt: skip
+        assert (begun.real, high.real) == pytest.approx((x, x), abs=1e-5)
+        assert high.imag - begun.imag == pytest.approx(begun.imag - low, abs=1e-5)
+    # two holes at either end have the size between them, two alone are at an end each
+    holes = [e for e in space.query("CIRCLE[layer=='OUTLINE']") if abs(e.dxf.radius - 3.3 * scale) < 1e-6]
+    assert len(holes) == {"holes": 4, "two holes": 2}.get(name, 0)
     # flanks of the end teeth alone, or of three at either end
     tangent = math.tan(math.radians(20.0)) / (math.cos(math.radians(20.0)) if "helix_angle_deg" in part else 1.0)
     flanks = [a for a, b in lines if (way := b - a).imag and abs(abs(way.real / way.imag) - tangent) < 1e-5

@@ -319,6 +319,17 @@ def test_refusals_name_the_key(keys: dict[str, Any], key: str) -> None:
     )
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_chamfer_is_refused_from_45_degrees_on_the_base_cylinder_on(sign: int) -> None:
+    """sin(beta_b) = sin(beta) cos(alpha_n): 48.808 degrees, of 20."""
+    limit = math.degrees(math.asin(math.sin(math.radians(45)) / math.cos(math.radians(20))))
+    keys = GEAR | {"number_of_teeth": 15, "face_chamfer": 0.2}
+    body_of(keys | {"helix_angle_deg": sign * (limit - 1e-4)})
+    with pytest.raises(SceneError) as caught:
+        body_of(keys | {"helix_angle_deg": sign * (limit + 1e-4)})
+    assert caught.value.code == "chamfer_on_steep_helix"
+
+
 def test_a_refused_shift_is_told_in_normal_modules_and_its_remedy_works() -> None:
     keys = {
         **GEAR,

@@ -167,6 +167,8 @@ def test_an_unknown_material_is_refused_with_the_names_that_are_known(
         # what a rod or a bar is, and what is no sheet of one thickness
         ('material = "steel Ø60 mm"', None),
         ('material = "steel 60x60 mm"', None),
+        ('material = "steel \u2300 60 mm"', None),
+        ('material = "steel 60 x 60 mm"', None),
         ('material = "plywood 3 mm"\nhub = { diameter = 20.0, above = 5.0 }', None),
     ],
 )

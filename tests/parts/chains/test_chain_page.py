@@ -80,6 +80,9 @@ def test_the_second_sprocket_has_its_own_tip_diameter(tmp_path: Path) -> None:
         ({"tooth_form": "GOST 591"}, {"tooth_form": "ANSI B29.1"}),
         ({"tooth_form": "ANSI B29.1"}, {"form": 1.0}),
         ({"form": 0.25}, {"form": 0.75}),
+        # what only the first one's standard has is none of the second's
+        ({"form": 0.25}, {"tooth_form": "GOST 591"}),
+        ({"tooth_form": "GOST 591", "displaced": True}, {"tooth_form": "ISO 606"}),
     ],
 )
 def test_the_second_sprocket_of_a_scene_has_its_own_tooth_form(

@@ -450,6 +450,47 @@ def test_two_models_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFix
     assert "leave pin apart" in capsys.readouterr().err
 
 
+PLACED = """[instances.crank]
+part = "crank"
+rotation_deg = 20.0
+[instances.rod]
+part = "rod"
+at = [{x}, {y}, 10.0]
+rotation_deg = {lean}
+"""
+
+
+def test_a_link_that_is_placed_off_its_place_or_turned_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By our own solution, half a millimetre and half a degree off; and what is told of where it is."""
+    keys = {"first": "rods", "crank_length": 25.0, "frame_length": 80.0, "coupler_length": 70.0, "lever_length": 50.0}
+    at, lean = Solved(keys).turned(math.radians(20.0))["rod"]
+    for off, turned, told in ((0.0, 0.0, ""), (0.5, 0.0, "stand 25.5 mm apart"), (0.0, 0.5, "rod stands turned by")):
+        place = at + off * at / abs(at)
+        more = {"x": f"{place.real:.9f}", "y": f"{place.imag:.9f}", "lean": f"{math.degrees(lean) + turned:.9f}"}
+        text = CRANK.replace("[[mates]]", f"{PLACED.format(**more)}[[mates]]")
+        code = main(["check", str(written(tmp_path, text))])
+        said = capsys.readouterr().out
+        assert code == (1 if told else 0)
+        assert told in said
+    assert float(re.findall(r"rotation_deg = (\S+) makes it fit", said)[0]) == pytest.approx(
+        math.degrees(lean), abs=1e-5
+    )
+
+
+def test_ends_of_a_crank_of_which_one_swallows_the_other_lead_to_one_that_does_not(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Circles of 12 and 62 mm 25 mm apart touch from within."""
+    for key, value in (("width", 70.0), ("boss_diameter", 62.5)):
+        text = CRANK.replace("[parts.rod]", f"{key} = {value}\n[parts.rod]")
+        assert main(["check", str(written(tmp_path, text))]) == 2
+        found = re.search(rf"parts.crank.{key} = {value}: .* at most ([\d.]+) mm works", capsys.readouterr().err)
+        assert found
+        assert float(found[1]) == pytest.approx(62.0, abs=0.01)
+
+
 BLOCK = """[parts.{part}]
 kind = "plate"
 width = 16.0
