@@ -326,7 +326,7 @@ def _build(options: argparse.Namespace) -> int:
 
         if not has_kernel():
             raise SceneError(options.scenes[0], "--verify", "kernel", "needs_kernel")
-    plans, refused = _each(options.scenes, planned, lambda: _language(options))
+    plans, refused = _each(_quoted(options.scenes), planned, lambda: _language(options))
     if refused:
         return WRONG_INPUT
     _refuse_one_folder(plans)
@@ -428,6 +428,27 @@ def _each(asked: Sequence[S], run: Callable[[S], T], language: Callable[[], str]
     return found, refused
 
 
+def _quoted(scenes: Sequence[str]) -> Sequence[str]:
+    """The scenes that are asked for.
+
+    Raises
+    ------
+    SceneError
+        None is there, but the one that they name together: a name with blanks, without quotes.
+    """
+    from geometry.base.errors import Nearest
+    from parts.base.refusal import SceneError
+    from parts.scene.files import built_in_scenes
+
+    built_in, whole = built_in_scenes(), " ".join(scenes)
+    if len(scenes) < 2 or any(one in built_in or os.path.exists(one) for one in scenes):
+        return scenes
+    if (name := "_".join(scenes)) not in built_in and not os.path.isfile(whole):
+        return scenes
+    found = name if name in built_in else f'"{whole}"'
+    raise SceneError(whole, "", None, "name_without_quotes", Nearest(found, "meant"))
+
+
 def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
     """One result as it is, several as a list; nothing where the only one was refused."""
     import json
@@ -458,7 +479,7 @@ def _check(options: argparse.Namespace) -> int:
         )  # fmt: skip
         return checks, scene, names, part_notes(parts.values(), words(scene.scene.language))
 
-    found, refused = _each(options.scenes, checked, lambda: _language(options))
+    found, refused = _each(_quoted(options.scenes), checked, lambda: _language(options))
     if options.json:
         _print_json(options.scenes, [checks for checks, *_ in found])
     for checks, scene, names, notes in found:
