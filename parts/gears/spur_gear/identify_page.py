@@ -125,6 +125,16 @@ def _remarks(page: Sheet, keys: IdentifyKeys, found: list[Match], shift: float) 
         page.note("no module of a row is within 1 % of what was measured: module tells one of your own")
     elif any(abs(other.deviation) <= FITS for other in others):
         page.note("more than one fits within 1 %: pressure_angle_deg or module tells which")
+    # by so much less is the shift with a tooth more: a tooth or a space as wide as the pitch is none
+    step = math.pi / (2 * math.tan(match.pressure_angle))
+    if (missed := round(shift / step)) and keys.teeth_spanned + missed >= 1:
+        other = {"spanned": keys.teeth_spanned + missed, "shift": round(shift - missed * step, 4)}
+        page.note(
+            "no gear has such a shift, its tooth or space would be none: count the teeth of both spans again, "
+            "teeth_spanned = {spanned} gives {shift}",
+            **other,
+        )
+        return
     page.note("teeth thinned for backlash give less shift than they were cut with")
     words = {"module": match.module, "number_of_teeth": keys.number_of_teeth,
              "pressure_angle_deg": math.degrees(match.pressure_angle), "helix_angle_deg": keys.helix_angle_deg,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import tomllib
 from typing import Any
 
@@ -130,3 +131,13 @@ def test_what_stands_in_a_scene_is_typed_with_points_in_every_language(capsys: p
     table = tomllib.loads(keys.replace(", ", "\n"))
     assert (table["module"], table["number_of_teeth"]) == (2.5, 31)
     assert table["profile_shift_coefficient"] == pytest.approx(0.2, abs=0.002)
+
+
+@pytest.mark.parametrize("missed", [-2, -1, 1, 2])
+def test_teeth_that_were_counted_wrong_are_told_of(missed: int, capsys: pytest.CaptureFixture[str]) -> None:
+    """A tooth or two too many or too few: a shift of 4.7 was told as the gear's. The right number is offered."""
+    span, next_span = spans_of(3.0, 20.0, 24, 0.4, 4)
+    notes = identified(
+        capsys, number_of_teeth=24, teeth_spanned=4 + missed, span=round(span, 2), next_span=round(next_span, 2)
+    )["notes"]
+    assert re.search(r"count the teeth of both spans again, teeth_spanned = 4 gives 0\.(40|39)\d*$", notes[-1])
