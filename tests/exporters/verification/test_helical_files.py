@@ -33,7 +33,7 @@ PARTS: dict[str, dict[str, Any]] = {
     "double": {**GEAR, "number_of_teeth": 10, "hand": "left", "double_helical": True, "tip_rounding": 0.2,
                "web": {"thickness": 4.0, "rim_diameter": 16.5}, "hub": {"diameter": 13.0, "above": 2.0}},
     "chamfered": {**GEAR, "number_of_teeth": 15, "face_chamfer": {"below": 0.4, "above": 0.6}, "tip_chamfer": 0.3},
-    "chamfered double": {**GEAR, "number_of_teeth": 12, "hand": "left", "double_helical": True, "tip_rounding": 0.3,
+    "chamfered_double": {**GEAR, "number_of_teeth": 12, "hand": "left", "double_helical": True, "tip_rounding": 0.3,
                          "hub": {"diameter": 16.0, "above": 3.0}, "face_chamfer": 0.3},
     "steep": {**GEAR, "number_of_teeth": 9, "helix_angle_deg": 45.0, "face_width": 70.0, "tip_chamfer": 0.2},
     "shaped": {**GEAR, "number_of_teeth": 15, "helix_angle_deg": 20.0, "cutter": {"number_of_teeth": 25}},
@@ -197,7 +197,7 @@ def _distance_from_helical_gear(p: np.ndarray, teeth: int, module: float, alpha:
 
 @pytest.mark.sampled(1)
 @needs_kernel
-@pytest.mark.parametrize("name", ["double", "shaped", "rack", "chevrons", "chamfered", "chamfered double"])
+@pytest.mark.parametrize("name", ["double", "shaped", "rack", "chevrons", "chamfered", "chamfered_double"])
 def test_step_files_pass_their_read_back(tmp_path: Path, name: str) -> None:
     scene = write(tmp_path, {name: PARTS[name]}, 'format = "step"')
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
