@@ -33,13 +33,16 @@ CONTACT_TOLERANCE = 1e-8
 # Laser controllers stall on shorter moves; research on receiving programs, section 1.3.
 LEAST_SEGMENT_MM = 0.02
 
+# Lengths of parts that are smaller vanish among the digits of their places, of which STL has seven, mm.
+LEAST_LENGTH = 1e-4
+
 # Places and angles that people type have five decimals: parts that a scene puts together by hand fit this well, mm.
 PLACED_MM = 1e-5
 
 
 def is_told(typed: float, exact: float) -> bool:
-    """Whether a length that was typed, mm, is an exact one as it is told: with five decimals."""
-    return typed == round(exact, 5)
+    """Whether a length that was typed, mm, is an exact one as it is told: with five decimals, or all of them."""
+    return typed in (exact, round(exact, 5))
 
 
 # Decimals of curves in drawings, mm: what meets still does so better than kernels ask (1e-7), and what machines round

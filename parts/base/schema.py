@@ -16,6 +16,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, format_value
 from geometry.base.nearest import nearest
+from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.counted_over import counted_over
 from parts.base.refusal import SYNONYMS, SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
@@ -74,9 +75,33 @@ def converted(table: object, kind: type[Struct], source: str, place: str) -> Any
     if not isinstance(table, dict):
         raise SceneError(source, place, table, "not_a_table", key=place)
     try:
-        return msgspec.convert(table, kind)
+        made = msgspec.convert(table, kind)
     except msgspec.ValidationError as error:
         raise _explained(str(error), table, kind, source, place) from None
+    for keys, value in _tiny(table):
+        named = [i for i, key in enumerate(keys) if not key.isdigit()][-1]
+        held = _types_of(_owner(kind, keys[:named], table)).get(keys[named])
+        if any(meta.extra and meta.extra.get("length") and meta.ge == 0 for meta in _metas(held)):
+            works = Nearest(LEAST_LENGTH, "at_least")
+            raise SceneError(source, _written(place, keys), value, "hardly_above_zero", works, unit=_unit(held))
+    return made
+
+
+def _written(place: str, keys: list[str]) -> str:
+    """A place as refusals write it."""
+    return "".join([place, *(f"[{int(k) + 1}]" if k.isdigit() else f".{k}" for k in keys)])
+
+
+def _tiny(table: object, *keys: str) -> Iterator[tuple[list[str], float]]:
+    """Numbers hardly above 0 of plain tables, each with its place."""
+    if isinstance(table, float) and 0 < table < LEAST_LENGTH:
+        yield [*keys], table
+    elif isinstance(table, dict):
+        for key, value in table.items():
+            yield from _tiny(value, *keys, key)
+    elif isinstance(table, list):
+        for index, value in enumerate(table):
+            yield from _tiny(value, *keys, str(index))
 
 
 def kind_of(
@@ -110,7 +135,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     path = re.search(r" - at `\$\.?(.*?)`$", text)
     message = text[: path.start()] if path else text
     keys = [k for k in re.split(r"[.\[\]]+", path.group(1) if path else "") if k]
-    where = "".join([place, *(f"[{int(k) + 1}]" if k.isdigit() else f".{k}" for k in keys)])
+    where = _written(place, keys)
     if unknown := re.search(r"unknown field `(.*?)`", message):
         owner, name = _owner(kind, keys, table), unknown.group(1)
         tag = owner.__struct_config__.tag_field

@@ -10,6 +10,7 @@ The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -48,6 +49,31 @@ class Message(NamedTuple):
 
 
 Text = str | Message
+
+# how many decimals or digits a format asks for, and of a limit what is rounding and no step more
+_ASKED, _ROUNDING = re.compile(r"(?:\.(\d+))?([fg])"), 1e-10
+
+
+class Told(float):
+    """A limit as it is told: whatever the format, the last digit is rounded to the side that works, up or down."""
+
+    up: bool
+
+    def __new__(cls, value: float, *, up: bool) -> Told:
+        made = super().__new__(cls, value)
+        made.up = up
+        return made
+
+    def __format__(self, form: str) -> str:
+        asked = _ASKED.fullmatch(form)
+        if asked is None or self == 0 or not math.isfinite(self):
+            return super().__format__(form)
+        decimals = int(asked[1] or 6)
+        if asked[2] == "g":
+            decimals -= 1 + math.floor(math.log10(abs(self)))
+        steps = self * 10.0**decimals
+        slack = min(abs(steps) * _ROUNDING, 1e-3)
+        return format((math.ceil(steps - slack) if self.up else math.floor(steps + slack)) / 10.0**decimals, form)
 
 
 class Fault(str):

@@ -15,7 +15,7 @@ from parts.base.kind import Others, Report
 from parts.base.schema import replaced, value_at
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline, outline_with_marks
 from parts.keys.base import MOST_LENGTH, BoreDiameter, mm, part_mm
-from parts.keys.holes import Direction, check_bore
+from parts.keys.holes import Direction
 from parts.keys.pins import PinCircle, PinDiameter, least_of
 
 if TYPE_CHECKING:
@@ -127,7 +127,6 @@ def _drawn(
         arms += [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
     names = "pin_diameter", "spacers.diameter"
     holes = [(key, at, c.diameter) for key, c in zip(names, circles, strict=False) for at in c.centres()]
-    check_bore(keys.bore_diameter)
     if keys.bore_diameter > 0:
         holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
     return _edges(keys, arms), holes, tuple(circles)

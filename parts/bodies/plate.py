@@ -14,8 +14,9 @@ from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import last_that_holds
+from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.kind import HoleAt, Kind, Others
-from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, MadeKeys, mm, part_mm
+from parts.keys.base import MOST_LENGTH, MadeKeys, mm, part_mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 _Place = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 
 
+# mm: the thinnest wall between holes of a grid, three times what rounding takes
+_WALL = 3e-6
 # holes of one grid
 _MOST_HOLES = 1000
 _COLUMNS = Meta(
@@ -60,7 +63,7 @@ class HoleAtTable(Struct, forbid_unknown_fields=True):
     @property
     def least_pitch(self) -> float:
         """From hole to hole where the thinnest wall is left, mm; a third of it is for what rounding takes."""
-        return rounded(self.diameter + 3 * LEAST_LENGTH, up=True, digits=6)
+        return rounded(self.diameter + _WALL, up=True, digits=6)
 
     @property
     def steps(self) -> tuple[float, float]:
@@ -200,7 +203,7 @@ def _check_grid(keys: FlatKeys, number: int, holds: Callable[[FlatKeys], bool]) 
             # no pitch is wide enough within the edges
             smaller = partial(_works, keys, number, holds, "diameter")
             most = min(s for s, n in zip(table.steps, (table.columns, table.rows), strict=True) if n > 1)
-            most -= 3 * LEAST_LENGTH
+            most -= _WALL
             if most <= LEAST_LENGTH or not smaller(LEAST_LENGTH):
                 raise ParameterError(f"{place}.{typed}", step, "grid_holes_meet")
             most = most if smaller(most) else last_that_holds(smaller, most, LEAST_LENGTH, steps=30)

@@ -18,7 +18,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.base.texts import N_
 from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm, start
-from parts.keys.holes import HolesTable, check_bore, hub_holes
+from parts.keys.holes import HolesTable, hub_holes
 from parts.keys.pins import MARGIN, least_of, most_of, moved_region
 from parts.keys.splines import SplineTable
 from parts.keys.threads import Thread
@@ -312,7 +312,6 @@ def _check_shaft(keys: ShaftSpec) -> None:
     ParameterError
         One does not.
     """
-    check_bore(keys.bore_diameter)
     z, whole = 0.0, sum(step.length for step in keys.steps)
     if keys.bore_diameter and keys.centre_holes is not None:
         raise either("bore_diameter", keys.bore_diameter, "centre_holes", 0.0)

@@ -11,10 +11,11 @@ from typing import Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.part_keys import MaterialKeys
 
-# what is smaller vanishes among the digits of its place, and the largest part, mm
-LEAST_LENGTH, MOST_LENGTH = 1e-6, 100_000.0
+# the largest part, mm
+MOST_LENGTH = 100_000.0
 
 
 def size(
@@ -27,16 +28,18 @@ def size(
     most: float | None = None,
     example: object = None,
     aside: bool = False,
+    length: bool = True,
 ) -> Meta:
     """A key with a unit and a range; ``example``: for a scene to start from, of a key without a default.
 
     ``aside``: it may stand in place of others, so that ``new`` leaves it out of a table.
-    A length above 0 is at least ``LEAST_LENGTH``.
+    A length above 0 is at least ``LEAST_LENGTH``: one that may be 0 is 0 or that much, unless it is no
+    ``length`` of a part.
     """
     if unit == "mm" and above == 0:
         above, least = None, LEAST_LENGTH
     ends: dict[str, Any] = {"gt": above, "ge": least, "lt": below, "le": most}
-    marks = {"unit": unit, "aside": aside}
+    marks = {"unit": unit, "aside": aside, "length": length and unit in ("mm", "modules")}
     return Meta(**ends, description=text, examples=None if example is None else [example], extra=marks)
 
 

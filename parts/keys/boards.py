@@ -48,7 +48,9 @@ _THICKNESS = mm(
     example=3.0,
 )
 _FEED = size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
-Kerf = Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)]
+Kerf = Annotated[
+    float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10, length=False)
+]
 _GRAIN = Meta(description="its grain runs along x: parts lie as drawn, or turned by half a turn")
 
 

@@ -15,7 +15,7 @@ from geometry.base.nearest import kept, nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import nearest_key, value_at
-from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, part_mm
+from parts.keys.base import BoreDiameter, MadeKeys, degrees, either, part_mm
 from parts.keys.splines import Clearance, InvoluteSplineTable, StraightSplineTable
 
 if TYPE_CHECKING:
@@ -233,30 +233,16 @@ class Bored(Protocol):
 _HUB_SHARE, _RIM_MODULES, _OFF = 1.6, 2.5, 1.05
 
 
-def check_bore(diameter: float) -> None:
-    """A bore in short is none, or no smaller than a hole.
-
-    Raises
-    ------
-    ParameterError
-        It is hardly any.
-    """
-    if 0 < diameter < LEAST_LENGTH:
-        nearest = Nearest(LEAST_LENGTH, "at_least")
-        raise ParameterError("bore_diameter", diameter, "out_of_range", nearest, least=LEAST_LENGTH, most=MOST_LENGTH)
-
-
 def bore_of(keys: Bored) -> BoreTable | None:
     """The bore in full.
 
     Raises
     ------
     ParameterError
-        It is given in short too, or is hardly any.
+        It is given in short too.
     """
     if keys.bore is not None and keys.bore_diameter:
         raise either("bore_diameter", keys.bore_diameter, "bore", 0.0)
-    check_bore(keys.bore_diameter or 0.0)
     return RoundBoreTable(keys.bore_diameter) if keys.bore_diameter else keys.bore
 
 

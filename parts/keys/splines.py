@@ -28,6 +28,8 @@ _FIT = r"[A-WYZa-wyz]{1,2}[1-9]\d?"
 _NUMBER = re.compile(rf"(\d+(?:\.\d+)?)({_FIT}(?:/{_FIT})?)?")
 _CLASS = r"[1-9]\d?(?:js|[A-WYZa-wyz])"
 _CLASSES = re.compile(rf"x({_CLASS})(?:/?({_CLASS}))?$")
+# behind a blank alone, as DIN 5480 has them: 120 x 3 x 38 9H/8f; 24z of ISO 4156 are teeth
+_BLANK = re.compile(rf"(?<=[\dRP])\s+(?={_CLASS}(?<!z)(?:\s*/?\s*{_CLASS})?(?:\s|$))", re.IGNORECASE)
 _ALONE = re.compile(rf"{_CLASS}(?:/?{_CLASS})?")
 # zones with a sign before them, as GOST 6033 has them
 _APART = re.compile(rf"x(?={_FIT})")
@@ -54,7 +56,7 @@ def _plain(size: str, *standards: str) -> str:
 
     Cyrillic letters become the Latin ones that look like them, signs between sizes x, decimal marks points.
     """
-    plain = in_latin("".join(size.split())).translate(_SIGNS).replace("\u0413OCT", "GOST")
+    plain = "".join(_BLANK.sub("x", in_latin(size)).split()).translate(_SIGNS).replace("\u0413OCT", "GOST")
     named = "|".join(standard.replace(" ", "") for standard in standards)
     return re.sub(rf"^(?:{named})-?|(?:{named})(?:-\d+)?$", "", plain)
 

@@ -13,19 +13,22 @@ from parts.base.psv import rows_in, rows_of
 
 
 class Term(Record):
-    """A quantity: its key in formulas, its printed symbol, its unit, its name."""
+    """A quantity: its key in formulas, its printed symbol, its unit, its name; ``side``: of a limit that may be typed,
+    to which its last digit is rounded, up or down.
+    """
 
     key: str
     symbol: str
     unit: str
     name: str
+    side: str = ""
 
 
 TERMS: dict[str, Term] = {}
 
 
 def add_terms(text: str) -> None:
-    """One term a line: DESIGN name | key | symbol | unit | name; lines that begin with ``#`` are remarks.
+    """One term a line: DESIGN name | key | symbol | unit | name, of a limit | up or down too; ``#`` begins a remark.
 
     Raises
     ------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from parts.base.texts import NC_, Words
+from parts.base.texts import NC_, Told, Words
 from parts.pages.page import Step, number, unit_text
 from parts.pages.terms import TERMS
 
@@ -41,9 +41,10 @@ def step_name(step: Step, words: Words) -> str:
 
 def result_text(step: Step, words: Words) -> str:
     """Value and unit."""
-    unit = unit_text(step.unit, words)
+    unit, side = unit_text(step.unit, words), TERMS[step.name].side
     gap = "" if unit in ("°", "") else " "
-    return f"{number(step.value, step.unit)}{gap}{unit}"
+    value = Told(step.value, up=side == "up") if side and isinstance(step.value, float) else step.value
+    return f"{number(value, step.unit)}{gap}{unit}"
 
 
 def printed_text(step: Step, words: Words) -> str:

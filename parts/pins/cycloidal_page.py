@@ -9,8 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from geometry.curves.curve import Complex, Real
-from geometry.curves.cycloid import greatest_shortening
-from geometry.gears.pins.cycloidal import CycloidalDisc, disc_findings
+from geometry.gears.pins.cycloidal import CycloidalDisc, disc_findings, eccentricities
 from parts.base.texts import N_
 from parts.keys.base import degrees
 from parts.pages.inputs import calculation, part_of_kind
@@ -80,9 +79,10 @@ def _limits(page: Sheet, disc: CycloidalDisc) -> None:
     page.section("Limits")
     lam, pins = disc.shortening, disc.number_of_pins
     page.add("shortening_coefficient", lam, "{e} * {N} / {R_g}", _CURVE)
-    most = greatest_shortening(disc.generating_radius, pins, disc.generating_pin_radius)
-    page.add("greatest_shortening", most)
-    page.add("greatest_eccentricity", most * disc.generating_radius / pins, "{lam_max} * {R_g} / {N}")
+    # a hundredth of the pin's radius is left to the sharpest place
+    most = eccentricities(disc)[1]
+    page.add("greatest_shortening", most * pins / disc.generating_radius)
+    page.add("greatest_eccentricity", most, "{lam_max} * {R_g} / {N}")
     formula = "{R_g} * (1 + {lam})**2 / (1 + {N} * {lam})"
     if lam > (pins - 2) / (2 * pins - 1):
         formula = "{R_g} * sqrt(27 * ({N} - 1) * (1 - {lam}**2) / ({N} + 1)**3)"

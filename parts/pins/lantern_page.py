@@ -8,7 +8,7 @@ from typing import Annotated
 import numpy as np
 from msgspec import Meta
 
-from geometry.gears.pins.lantern import LanternGear, lantern_findings, limits_of
+from geometry.gears.pins.lantern import LanternGear, greatest_pin_diameter, lantern_findings, limits_of
 from parts.base.texts import N_
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet, Table, table_of
@@ -64,8 +64,9 @@ def _sizes(page: Sheet, gear: LanternGear) -> None:
 def _limits(page: Sheet, gear: LanternGear) -> None:
     found = limits_of(gear)
     page.section("Limits of the tooth")
-    page.add("greatest_pin_radius", gear.lantern_radius * math.sin(math.pi / gear.number_of_pins),
+    page.add("half_pin_distance", gear.lantern_radius * math.sin(math.pi / gear.number_of_pins),
              "{r_2} * sin(pi / {N})")  # fmt: skip
+    page.add("greatest_pin_radius", greatest_pin_diameter(gear) / 2)
     neck = 2 * (gear.pitch_radius * math.sin(gear.pitch_angle / 2) - gear.root_arc_radius)
     page.add("neck_width", neck, "2 * ({r_1} * sin({tau} / 2) - {rho_f})")
     page.told(flank_start_radius=found.start_radius, pointed_radius=found.pointed_radius)

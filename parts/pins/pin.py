@@ -10,7 +10,7 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, mm, part_mm
-from parts.keys.holes import BoredKeys, check_bore, holes_of
+from parts.keys.holes import BoredKeys, holes_of
 from parts.keys.pins import RoundPinKind, check_holes, most_of
 
 if TYPE_CHECKING:
@@ -44,7 +44,6 @@ class Pin(RoundPinKind[PinSpec, "RoundDisc"]):
         from geometry.solids.pin_plates import RoundDisc
 
         most = keys.diameter - 2 * least_wall(keys.diameter / 2)
-        check_bore(keys.bore_diameter)
         if keys.bore_diameter > most:
             cure = limit(most, keys.bore_diameter, digits=6)
             raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)

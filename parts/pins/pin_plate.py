@@ -11,10 +11,11 @@ from msgspec.structs import replace
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
+from geometry.base.tolerance import LEAST_LENGTH
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Others, Report
-from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, mm, part_mm
+from parts.keys.base import MOST_LENGTH, mm, part_mm
 from parts.keys.holes import Direction, HoledKeys, holes_of
 from parts.keys.pins import (
     MARGIN,

@@ -22,7 +22,7 @@ from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
 from parts.base.texts import Message
-from parts.keys.base import DEVICE_NAMES, IDENTIFIER, LEAST_LENGTH
+from parts.keys.base import DEVICE_NAMES, IDENTIFIER
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid, check_parts
 from parts.keys.sheet import check_sheet_keys
 from parts.scene.files import MOST_BYTES, built_in_scenes, tables_of, text_of
@@ -422,6 +422,10 @@ _NOT_OF_CAD = (
 )  # fmt: skip
 
 
+# mm: an outline that moves less stays as files tell it
+_LEAST_MOVE = 1e-6
+
+
 def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, place: str) -> ExportSpec:
     spec = converted(table, ExportSpec, source, place)
 
@@ -440,9 +444,9 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
     if spec.kerf and spec.offset:
         refuse("kerf", "kerf_and_offset")
     for key in ("kerf", "offset"):
-        if 0 < abs(moved := getattr(spec, key)) < LEAST_LENGTH:
+        if 0 < abs(moved := getattr(spec, key)) < _LEAST_MOVE:
             raise SceneError(
-                source, f"{place}.{key}", moved, "hardly_moves", Nearest(0.0), unit="mm", least=LEAST_LENGTH
+                source, f"{place}.{key}", moved, "hardly_moves", Nearest(0.0), unit="mm", least=_LEAST_MOVE
             )
     for key, usual, only in _OF_ONE_FORMAT:
         if spec.format != only and getattr(spec, key) != usual:

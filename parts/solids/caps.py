@@ -122,7 +122,10 @@ def _delaunay(points: Complex, numbers: Triangles, polygons: list[Real]) -> Tria
     """The constrained Delaunay triangles of a polygon with holes, by the library of planes."""
     import shapely
 
-    found = shapely.constrained_delaunay_triangles(shapely.Polygon(polygons[0], polygons[1:]))
+    try:
+        found = shapely.constrained_delaunay_triangles(shapely.Polygon(polygons[0], polygons[1:]))
+    except shapely.errors.GEOSException as error:
+        raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller") from error
     x, y = shapely.get_coordinates(found).reshape(-1, 4, 2)[:, :3].transpose(2, 0, 1)
     order = numbers[np.argsort(points[numbers])]
     triangles = order[np.searchsorted(points[order], x + 1j * y)]

@@ -7,7 +7,7 @@ from typing import Any
 
 from geometry.base.findings import Finding
 from parts.base.psv import sentences_of
-from parts.base.texts import Message, Text, filled, message, words
+from parts.base.texts import Message, Text, Told, filled, message, words
 
 FINDINGS = sentences_of(__file__, "findings")
 
@@ -18,9 +18,10 @@ def add_findings(table: Mapping[str, Text]) -> None:
 
 
 def finding_message(finding: Finding) -> Message:
-    """A finding as a sentence that waits for its language."""
+    """A finding as a sentence that waits for its language; limits work as they are told, ``most``: a greatest one."""
     value, limit = finding.value, finding.limit
-    return filled(FINDINGS[finding.code], value=value, limit=limit, lack=limit - value)
+    near, most = Told(limit, up=limit > value), Told(limit, up=False)
+    return filled(FINDINGS[finding.code], value=value, limit=near, most=most, lack=limit - value)
 
 
 def finding_of(gear: int, finding: Finding) -> Message:

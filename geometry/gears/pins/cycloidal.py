@@ -154,7 +154,7 @@ def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
         Names the key and the nearest value that works; ``UndercutError`` where pins would cut the lobes away.
     """
     _check_pins(disc)
-    least, most = _eccentricities(disc)
+    least, most = eccentricities(disc)
     if disc.eccentricity < least:
         raise ParameterError("eccentricity", disc.eccentricity, "leaves_no_lobes", _told(least, disc.eccentricity))
     if disc.eccentricity > most:
@@ -166,7 +166,7 @@ def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
     return disc
 
 
-def _eccentricities(disc: CycloidalDisc) -> tuple[float, float]:
+def eccentricities(disc: CycloidalDisc) -> tuple[float, float]:
     """Least and greatest eccentricity for these pins, mm; the circle of pins must be larger than a pin."""
     big, pins = disc.generating_radius, disc.number_of_pins
     most = greatest_shortening(big, pins, disc.generating_pin_radius * (1 + _SHARPEST)) * (1 - _MARGIN)
@@ -181,7 +181,7 @@ def _is_whole(disc: CycloidalDisc) -> bool:
     """Whether an outline exists, whatever the pins do to each other."""
     if not disc.generating_pin_radius > 0 or not _leaves_disc(disc):
         return False
-    least, most = _eccentricities(disc)
+    least, most = eccentricities(disc)
     return least <= disc.eccentricity <= most
 
 

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import CuspError, Nearest, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
-from geometry.base.nearest import nearest
+from geometry.base.nearest import last_that_holds, nearest
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace, with_value
 from geometry.base.roots import bracketed_root
@@ -256,6 +256,16 @@ def checked_lantern_gear(gear: LanternGear) -> LanternGear:
         )
     limits_of(gear)
     return gear
+
+
+def greatest_pin_diameter(gear: LanternGear) -> float:
+    """Of pins between which a tooth is left, and that do not touch, mm."""
+
+    def whole(diameter: float) -> object:
+        return checked_lantern_gear(with_value(gear, "pin_diameter", diameter))
+
+    touching = gear.pin_circle_diameter * math.sin(math.pi / gear.number_of_pins)
+    return last_that_holds(whole, touching, gear.pin_diameter, steps=48)
 
 
 @lru_cache(maxsize=32)

@@ -131,6 +131,12 @@ def thin_tip(gear: SpurGear) -> Margin:
     return Margin.above("thin_tip", tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module)
 
 
+def thin_tips(gear: SpurGear) -> tuple[Finding, ...]:
+    """The remark on a tip that is thinner."""
+    tip = thin_tip(gear)
+    return short_of(tip.name, tip.value, tip.limit)
+
+
 def root_below_bore(gear: SpurGear) -> Margin:
     """Diameter that the bore reaches against the root diameter, mm."""
     return Margin.below("root_below_bore", 2 * gear.bore_radius, 2 * gear.root_radius)
@@ -151,9 +157,9 @@ def findings(gear: SpurGear, helix_angle: float = 0.0) -> tuple[Finding, ...]:
 
     ``gear``: the transverse section where ``helix_angle`` is not 0, rad; shifts are told in normal modules then.
     """
-    tip, cut = thin_tip(gear), undercut_shifts(gear, helix_angle)
+    cut = undercut_shifts(gear, helix_angle)
     found = [] if cut is None else [Finding("undercut", *cut)]
-    found += short_of(tip.name, tip.value, tip.limit)
+    found += thin_tips(gear)
     if gear.bore_radius > 0:
         found += short_of("thin_rim", gear.root_radius - gear.bore_radius, gear.module)
     return tuple(found)

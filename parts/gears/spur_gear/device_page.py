@@ -229,5 +229,5 @@ def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
                 page.note(slight, x=gear.profile_shift_coefficient, least=least)
             else:
                 page.note(undercut[index], lost=lost)
-        if limits.thin_tip(gear).margin < 0:
+        if limits.thin_tips(gear):
             page.note(pointed[index])

@@ -267,7 +267,7 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.note("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3")
     if limits.undercut_shifts(gear, helix) is not None:
         page.note("the tooth is undercut: x < x_min")
-    if limits.thin_tip(gear).margin < 0:
+    if limits.thin_tips(gear):
         page.note("the tip is thinner than 0.3 m")
 
 

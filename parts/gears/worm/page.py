@@ -22,7 +22,7 @@ from geometry.gears.worms.measures import BALL, over_balls, reference_chord
 from geometry.gears.worms.thread import Thread, thread_of
 from geometry.gears.worms.worm import Worm
 from parts.base.refusal import REMOVED, SceneError, explained
-from parts.base.texts import N_
+from parts.base.texts import N_, Told
 from parts.gears.worm.part import WormSpec, told_worm
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
 from parts.keys.base import mm, size
@@ -336,15 +336,15 @@ def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
     if keys.worm_length is not None:
         page.add("worm_length", keys.worm_length)
         for found in short_of("worm_length", keys.worm_length, drive.least_worm_length):
-            page.note("the worm is shorter than {limit:.5g} mm", limit=found.limit)
+            page.note("the worm is shorter than {limit:.5g} mm", limit=Told(found.limit, up=True))
     if keys.face_width is not None:
         page.add("rim_width", keys.face_width)
         for found in beyond("face_width", keys.face_width, drive.most_face_width):
-            page.note("the wheel's rim is wider than {limit:.5g} mm", limit=found.limit)
+            page.note("the wheel's rim is wider than {limit:.5g} mm", limit=Told(found.limit, up=False))
     if keys.outer_diameter is not None:
         page.add("wheel_outer_diameter", keys.outer_diameter)
         for found in beyond("outer_diameter", keys.outer_diameter, drive.most_outer_diameter):
-            page.note("the wheel's outer diameter is more than {limit:.5g} mm", limit=found.limit)
+            page.note("the wheel's outer diameter is more than {limit:.5g} mm", limit=Told(found.limit, up=False))
 
 
 def _wheel_keys(keys: WormKeys) -> WormWheelSpec:

@@ -1212,6 +1212,25 @@ def test_the_least_length_of_a_worm_goes_by_the_shift(shift: float, starts: int,
     assert values_of(words)["values"]["least_worm_length"] == pytest.approx(least, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    "words", ["number_of_teeth=22", "number_of_teeth=13", "number_of_teeth=31 helix_angle_deg=20", "number_of_teeth=57"]
+)
+def test_the_greatest_shift_for_a_tip_is_not_thin_as_it_is_told(words: str) -> None:
+    """Rounded to the nearest digit every second one was; the text and the json tell one that is not."""
+    name, note = "greatest_shift_for_tip_thickness", "the tip is thinner than 0.3 m"
+    page = render(sheet_for(f"spur module=3 {words}"), "text", "en").splitlines()
+    row = next(k for k, line in enumerate(page) if line.startswith("greatest shift with a tip of 0.3 m"))
+    whole, told = values_of(f"spur module=3 {words}")["values"][name], float(page[row + 1].rpartition("= ")[2])
+    assert whole - 1e-6 < told <= whole
+    for shift, thin in ((whole, False), (told, False), (whole + 2e-6, True)):
+        found = values_of(f"spur module=3 {words} profile_shift_coefficient={shift!r}")
+        assert (note in found["notes"]) == thin
+    # the tip thickness of the transverse section there is 0.3 m_t
+    values = values_of(f"spur module=3 {words} profile_shift_coefficient={whole!r}")["values"]
+    cosine = math.cos(math.radians(20 if "helix" in words else 0))
+    assert values["tip_thickness"] * cosine == pytest.approx(0.9, rel=1e-9)
+
+
 @pytest.mark.parametrize("words", ["spur number_of_teeth=26", "spur number_of_teeth=29 helix_angle_deg=20",
                                    "ring number_of_teeth=73", "ring number_of_teeth=49",
                                    "rack number_of_teeth=20"])  # fmt: skip

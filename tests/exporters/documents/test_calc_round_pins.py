@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import random
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate, sheet_of
 from exporters.production.check import scene_checks
 from exporters.production.plan import plan_build
+from parts.base.refusal import SceneError
 from parts.base.texts import words
 from parts.scene.load import load_scene
 from tests.exporters.command.test_cli import complaint
@@ -151,6 +153,40 @@ def test_the_greatest_eccentricity_is_where_the_pins_begin_to_cut() -> None:
     assert 0 < near["least_profile_radius"] < values["least_profile_radius"]
     with pytest.raises(Exception, match="undercut"):
         calculated("cycloidal", *DISC[:3], f"eccentricity={most * 1.001}", *DISC[4:])
+
+
+def result_of(page: str, *, of: str) -> str:
+    """The digits of a quantity as the text of a page prints them."""
+    lines = page.splitlines()
+    row = lines[next(k for k, line in enumerate(lines) if line.split("  [")[0] == of) + 1]
+    return row.rpartition("= ")[2].split()[0]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_greatest_eccentricity_and_pin_build_as_they_are_told(seed: int) -> None:
+    """Of 15 discs and 15 lanterns none was built: at the limit itself the lobes are sharp, the teeth gone."""
+    draw = random.Random(seed)
+    disc = [f"number_of_lobes={draw.randint(6, 30)}", f"pin_circle_diameter={draw.uniform(50, 120):.2f}",
+            f"pin_diameter={draw.uniform(2, 6):.2f}"]  # fmt: skip
+    lantern = [
+        f"number_of_teeth={draw.randint(12, 40)}",
+        f"number_of_pins={draw.randint(7, 14)}",
+        f"pin_circle_diameter={draw.uniform(40, 90):.2f}",
+        "root_clearance=0.2",
+    ]
+    for topic, asked, key, name, per, called in (
+        ("cycloidal", disc, "eccentricity=", "greatest_eccentricity", 1, "greatest eccentricity without undercut"),
+        ("lantern", lantern, "pin_diameter=", "greatest_pin_radius", 2,
+         "greatest radius of pins that leave a tooth between them"),
+    ):  # fmt: skip
+        begun = [*asked, f"{key}{0.5 if topic == 'cycloidal' else 3}"]
+        whole = json.loads(calculate(topic, begun, "json", "en"))["values"][name]
+        told = float(result_of(calculate(topic, begun, "text", "en"), of=called))
+        assert whole - 1e-5 <= told <= whole
+        for value in (whole, told):
+            calculate(topic, [*asked, f"{key}{per * value!r}"], "json", "en")
+        with pytest.raises(SceneError, match=r"cut|between|touch|loops"):
+            calculate(topic, [*asked, f"{key}{per * whole * 1.0002!r}"], "json", "en")
 
 
 def test_a_lantern_gear_stands_where_its_pins_sweep() -> None:

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from decimal import Decimal
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,7 @@ import parts
 from geometry.base.errors import Nearest
 from parts.base import texts
 from parts.base.refusal import SceneError, sentence
-from parts.base.texts import LOCALE, add_catalogue, counted, filled, in_context, languages, listed, message, words
+from parts.base.texts import LOCALE, Told, add_catalogue, counted, filled, in_context, languages, listed, message, words
 from tests.catalogues import compiled
 
 HOUSE = Path(parts.__file__).parents[1]
@@ -31,6 +32,22 @@ msgstr ""
 COUNTS = {1: "1 раз", 2: "2 рази", 5: "5 разів", 11: "11 разів", 21: "21 раз", 112: "112 разів", 1.5: "1.5 раза",
           0: "0 разів", 22: "22 рази", 14: "14 разів", 101: "101 раз", 0.5: "0.5 раза",
           3.0: "3 рази", -1: "-1 раз"}  # fmt: skip
+
+
+@pytest.mark.parametrize("form", [".4f", ".3g", ".5g", ".6g", "g", ".0f"])
+@pytest.mark.parametrize(
+    "value", [0.12345678, -0.98765432, 41.4981049, 99999.96, 1234567.8, 3.0000000000000004e-5, 30.0]
+)
+def test_a_limit_is_told_on_its_side(form: str, value: float) -> None:
+    """The decimal numbers beside it, by the decimal module: one step at most, and none where it is told whole."""
+    plain, exact = Decimal(format(value, form)), Decimal(value)
+    up, down = (Decimal(format(Told(value, up=side), form)) for side in (True, False))
+    slack = abs(exact) * Decimal("1e-10")
+    assert down - slack <= exact <= up + slack
+    assert plain in (up, down)
+    step = Decimal(1).scaleb(-4 if form == ".4f" else 0 if form == ".0f" else
+                             exact.adjusted() + 1 - int(form[1:-1] or 6))  # fmt: skip
+    assert up - down in (0, step)
 
 
 @pytest.fixture

@@ -178,13 +178,20 @@ def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
         ("W 120 x 3 x 30 x 38 x 8f", DIN, ("", "8f")),
         ("120 x 3 x 38 x 9H 8f", DIN, ("9H", "8f")),
         ("50x2x9H/9g GOST 6033-80", {}, ("9H", "9g")),
+        # a blank stands for the sign before them
+        ("120x3x38 9H/8f", DIN, ("9H", "8f")),
+        ("DIN 5480 - N 120 x 3 x 38 9H", DIN, ("9H", "")),
+        ("W 120 x 3 x 38 8f", DIN, ("", "8f")),
+        ("120x3x38 9H 8f", DIN, ("9H", "8f")),
+        ("50x2 9H/9g GOST 6033-80", {}, ("9H", "9g")),
+        ("ISO 4156 INT/EXT 24z x 2,5m x 30R 5H/5f", ISO, ("5H", "5f")),
         ("50xH7/g6x2 GOST 6033-80", {}, ("", "")),
     ],
 )
 def test_classes_of_tolerance_end_a_designation(size: str, keys: dict[str, Any], classes: tuple[str, str]) -> None:
     made = InvoluteSplineTable(size, **keys).joint()
     assert (made.hub_class, made.shaft_class) == classes
-    plain = InvoluteSplineTable(re.sub(r" x \d+(H|f|js).*", "", size), **keys).joint()
+    plain = InvoluteSplineTable(re.sub(r"(?: x)? \d+(H|f|js).*", "", size), **keys).joint()
     # they move nothing
     assert (plain.shaft().outline(), plain.hub().outline()) == (made.shaft().outline(), made.hub().outline())
 
