@@ -122,7 +122,7 @@ class _Making(Making):
         super().__init__("lever_model", keys.plate_thickness, keys)
         self.keys = keys
         check_play(keys.clearance, keys.pin_diameter, keys.axle_diameter)
-        given, _ = chosen(keys.code, keys.assignment, keys.variant)
+        given, *_ = chosen(keys.code, keys.assignment, keys.variant)
         own = {key: value for key, value in given.items() if key in MechanismTable.__struct_fields__}
         self.machine = convert(own | told(keys.mechanism), MechanismTable)
         turning_levers(self.machine, "mechanism")

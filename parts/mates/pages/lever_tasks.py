@@ -52,8 +52,8 @@ def rows_of_code(code: str) -> tuple[int, tuple[int, int, int]]:
 
 def chosen(
     code: int | str | None, assignment: int | None, variant: int | None
-) -> tuple[dict[str, float | str], int | None]:
-    """The keys that a code, or an assignment and its row, stand for, and the number of the assignment.
+) -> tuple[dict[str, float | str], int | None, tuple[int, ...]]:
+    """The keys that a code, or an assignment and its row, stand for, the number of the assignment, and its rows.
 
     Raises
     ------
@@ -65,12 +65,13 @@ def chosen(
             if value is not None:
                 raise ParameterError(name, value, "other_is_given", REMOVED, other="code")
         number, rows = rows_of_code(str(code))
-        return assigned(number, rows), number
+        return assigned(number, rows), number, rows
     if assignment is None:
         if variant is not None:
             raise ParameterError("variant", variant, "needs_other", REMOVED, other="assignment")
-        return {}, None
-    return assigned(assignment, (1 if variant is None else variant,) * 3), assignment
+        return {}, None, ()
+    row = 1 if variant is None else variant
+    return assigned(assignment, (row, row, row)), assignment, (row,)
 
 
 def assigned(assignment: int, variants: tuple[int, int, int]) -> dict[str, float | str]:

@@ -64,7 +64,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     checked_picture(TOPIC, keys.picture, (".svg",))
     checked_picture(TOPIC, keys.sheet, (".dxf", ".svg", ".pdf"), "sheet")
     try:
-        given, number = chosen(keys.code, keys.assignment, keys.variant)
+        given, number, rows = chosen(keys.code, keys.assignment, keys.variant)
         if number is not None:
             given |= {k: v for k, v in EXAMPLE.items() if k != "code"} if _is_example(table) else {}
             keys = checked(given | {k: v for k, v in table.items() if k not in _CHOICE}, LeverKeys, TOPIC)
@@ -73,7 +73,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
             if "speed" in table:
                 raise ParameterError("speed_rpm", keys.speed_rpm, "other_is_given", REMOVED, other="speed")
             keys = changed(keys, speed=math.pi * keys.speed_rpm / 30)
-        return _Page(keys, number, is_example=_is_example(table)).made()
+        return _Page(keys, number, rows, is_example=_is_example(table)).made()
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
 
@@ -136,8 +136,8 @@ def _about(levers: Levers, start: float) -> tuple[list[tuple[float, float]], tup
 class _Page:
     """The page while it grows: ``at`` is the mechanism in the first position, in mm and s."""
 
-    def __init__(self, keys: LeverKeys, number: int | None, *, is_example: bool) -> None:
-        self.keys, self.number = keys, number
+    def __init__(self, keys: LeverKeys, number: int | None, rows: tuple[int, ...], *, is_example: bool) -> None:
+        self.keys, self.number, self.rows = keys, number, rows
         self.levers = _levers(keys)
         self.is_example = is_example
         printed = printed_for("lever example") if is_example else {}
@@ -776,7 +776,12 @@ class _Page:
         page, levers = self.page, self.levers
         if self.number is not None:
             machine = message(MACHINES[self.number])
-            page.note("assignment {number}: {machine}", number=self.number, machine=machine)
+            one, *more = self.rows
+            rows = message("row {one}", one=one)
+            if more:
+                # the record-book number chooses the rows of three groups of columns
+                rows = message("rows {a}, {b}, {c} of columns a, b, v", a=one, b=more[0], c=more[1])
+            page.note("assignment {number}, {rows}: {machine}", number=self.number, rows=rows, machine=machine)
             if self.number != 1:
                 page.note(
                     "the figure of this assignment is lost: how its links stand is the usual scheme of such a "

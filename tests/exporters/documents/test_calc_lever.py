@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import json
 import math
+import re
 import xml.etree.ElementTree as ET
 from functools import cache
 from pathlib import Path
@@ -175,6 +176,19 @@ def test_what_the_example_prints_is_told_beside_the_right_number(case: str, symb
 
 def _rows(data: dict[str, Any], name: str) -> list[list[Any]]:
     return [list(row.values()) for row in data[name]]
+
+
+@pytest.mark.parametrize("code", ["1071", "5530", "2384"])
+def test_the_page_tells_the_rows_that_a_code_chooses(code: str) -> None:
+    """Each group of columns is that of the assignment by the row told alone."""
+    data = calculated(f"code={code}")
+    (note,) = [note for note in data["notes"] if note.startswith("assignment")]
+    found = re.fullmatch(r"assignment (\d+), rows (\d+), (\d+), (\d+) of columns a, b, v: .*", note)
+    assert found
+    for row, symbol in zip(found.groups()[1:], ("φ_1", "ω_1", "l_AO1"), strict=True):
+        alone = calculated(f"assignment={found[1]}", f"variant={row}")
+        assert value(alone, symbol) == value(data, symbol)
+        assert any(told.startswith(f"assignment {found[1]}, row {row}: ") for told in alone["notes"])
 
 
 def test_both_plans_have_the_lengths_of_the_example() -> None:
