@@ -310,8 +310,9 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         )
         reached = self.sign * (line - forms[1]), line - self.sign * forms[0]
         limits = []
+        gears: tuple[SpurGear | G, ...] = self.gears
         for gear, corner, base, end, cut in zip(
-            self.gears, self.touching_corners, bases, reached, self._flank_cut_away()[::-1], strict=True
+            gears, self.touching_corners, bases, reached, self._flank_cut_away()[::-1], strict=True
         ):
             flank = math.inf if cut else gear.sign * math.hypot(base, max(end, 0.0))
             limits.append(2 * gear.sign * min(flank, math.inf if corner is None else gear.sign * corner))
@@ -326,7 +327,8 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         a_w, sign, off = self.working_centre_distance, self.sign, OFF_ROOT * self.module
         roots = sign * (a_w - self.second.root_radius), a_w - sign * self.first.root_radius
         found: list[float | None] = []
-        for gear, most, root, form in zip(self.gears, self.tip_limits, roots, self.root_form_radii, strict=True):
+        gears: tuple[SpurGear | G, ...] = self.gears
+        for gear, most, root, form in zip(gears, self.tip_limits, roots, self.root_form_radii, strict=True):
             limit = min(gear.sign * most / 2, gear.sign * root)
             tip = math.floor(1e4 * (limit - off)) / 1e4
             reaches = gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0
