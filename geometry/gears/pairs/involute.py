@@ -13,14 +13,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cached_property
-from typing import ClassVar, Generic, NamedTuple, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
 from geometry.base.angles import inverse_involute, involute_function, tangent_length
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import GeometryError, Nearest, ParameterError, limit
 from geometry.base.findings import Finding
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES, is_told
 from geometry.curves.curve import Real
 from geometry.gears.pairs.corners import Passing
@@ -321,19 +321,33 @@ class InvolutePair(Record, Generic[G, S], dict=True):
     def tips_off_roots(self) -> tuple[float | None, float | None]:
         """Tip radii, mm, that keep off the mate's fillet and root where those of the pair reach it; None: as they are.
 
-        They lie ``OFF_ROOT`` off: corners run on beyond the end of the involute. Tips that would have to lie below
-        where their own flank begins stay, and so do those of teeth that do not reach each other.
+        They lie ``OFF_ROOT`` off: corners run on beyond the end of the involute. Tips that no tooth could have so short
+        stay, and so do those of teeth that do not reach each other.
         """
         a_w, sign, off = self.working_centre_distance, self.sign, OFF_ROOT * self.module
         roots = sign * (a_w - self.second.root_radius), a_w - sign * self.first.root_radius
+<<<<<<< HEAD
         found: list[float | None] = []
         gears: tuple[SpurGear | G, ...] = self.gears
         for gear, most, root, form in zip(gears, self.tip_limits, roots, self.root_form_radii, strict=True):
+=======
+        found: list[float | None] = [None, None]
+        for index, (most, root) in enumerate(zip(self.tip_limits, roots, strict=True)):
+            gear = self.gears[index]
+>>>>>>> 2809fe38 (Tips yield only where a tooth can have so short a one: with a chamfer that leaves it no flank a pair was made that nothing could check)
             limit = min(gear.sign * most / 2, gear.sign * root)
-            tip = math.floor(1e4 * (limit - off)) / 1e4
-            reaches = gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0
-            found.append(gear.sign * tip if reaches and tip > gear.sign * form else None)
+            if gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0:
+                tip = gear.sign * math.floor(1e4 * (limit - off)) / 1e4
+                found[index] = tip if self._can_end(index, tip) else None
         return found[0], found[1]
+
+    def _can_end(self, index: int, tip_radius: float) -> bool:
+        """Whether one of the gears can have a tip radius, mm."""
+        gear: Any = replace(self.gears[index], given_tip_diameter=2 * tip_radius)
+        try:
+            return bool((replace(self, second=gear) if index else replace(self, first=gear)).sides[index])
+        except GeometryError:
+            return False
 
     def margins(self) -> tuple[Margin, ...]:
         """The pair's own limits, each with its margin (>= 0 where kept); practicum 3.1, blocking contours.

@@ -122,6 +122,19 @@ def test_the_limit_of_a_tip_is_where_its_corner_meets_the_mate(pair: Pair, part:
         assert (code in {f.code for f in mating.findings()}) == (off > 0)
 
 
+def test_tips_that_no_tooth_could_have_stay() -> None:
+    """So short a tooth would have no flank below its chamfer: the pair is made, and tells what strikes."""
+    raw = scene_of((35, 14, -0.62, -0.36, 20.0, 0.0))
+    for keys in raw["parts"].values():
+        keys["tip_chamfer"] = 0.1
+    mating: Any = make_parts(scene_from_dict(raw, "t", "t"), "t")[1][0]
+    assert mating.pair.second.tip_radius == mating.alone.second.tip_radius
+    assert mating.contact(0.0, 0.0, None).verdict is Verdict.OVERLAP
+    codes = {f.code for f in mating.findings()}
+    assert {"fillet_interference_first", "tips_shortened_first"} <= codes
+    assert not {"fillet_interference_second", "tips_shortened_second"} & codes
+
+
 def test_a_build_and_its_page_tell_the_tips(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     raw = scene_of(PAIRS[0])
     head = '[[mates]]\nkind = "external_gear_pair"\nfirst = "pinion"\nsecond = "wheel"\n'
