@@ -326,15 +326,9 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         """
         a_w, sign, off = self.working_centre_distance, self.sign, OFF_ROOT * self.module
         roots = sign * (a_w - self.second.root_radius), a_w - sign * self.first.root_radius
-<<<<<<< HEAD
-        found: list[float | None] = []
-        gears: tuple[SpurGear | G, ...] = self.gears
-        for gear, most, root, form in zip(gears, self.tip_limits, roots, self.root_form_radii, strict=True):
-=======
         found: list[float | None] = [None, None]
-        for index, (most, root) in enumerate(zip(self.tip_limits, roots, strict=True)):
-            gear = self.gears[index]
->>>>>>> 2809fe38 (Tips yield only where a tooth can have so short a one: with a chamfer that leaves it no flank a pair was made that nothing could check)
+        gears: tuple[SpurGear | G, ...] = self.gears
+        for index, (gear, most, root) in enumerate(zip(gears, self.tip_limits, roots, strict=True)):
             limit = min(gear.sign * most / 2, gear.sign * root)
             if gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0:
                 tip = gear.sign * math.floor(1e4 * (limit - off)) / 1e4
