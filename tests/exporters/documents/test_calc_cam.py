@@ -281,7 +281,7 @@ def test_both_languages_hold_the_table() -> None:
         assert "Положення" in calculate("cam", ["guidelines_cam"], form, None)
         assert "Positions" in calculate("cam", ["guidelines_cam"], form, "en")
     text = calculate("cam", ["guidelines_cam"], "text", "uk")
-    assert "м'який удар при куті повороту 90°" in text
+    assert "м'який удар за кута повороту 90°" in text
     assert "лінійно спадне прискорення" in text
 
 
