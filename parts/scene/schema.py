@@ -16,6 +16,7 @@ from parts.recipes.registry import RECIPES
 from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.language import WORDS, WORDS_OF_PARTS
+from parts.scene.motion_files import KEY
 from parts.scene.scene_file import ChecksSpec, ExportSpec, SceneInfo
 from parts.scene.steps import StepSpec
 
@@ -48,6 +49,12 @@ def scene_schema() -> str:
         if "description" in table:
             # a docstring, which an editor shows as it stands
             table["description"] = inspect.cleandoc(table["description"]).replace("``", "")
+    # a motion may stand in a file
+    file = {"type": "object", "properties": {"file": {"type": "string"}}, "required": ["file"],
+            "additionalProperties": False}  # fmt: skip
+    for table in schema["$defs"].values():
+        if KEY in table.get("properties", {}):
+            table["properties"][KEY]["anyOf"].append(file)
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
     recipes = [(entry.keys.__name__, WORDS) for entry in RECIPES.values()]

@@ -8,7 +8,9 @@ import pytest
 
 from exporters.command.cli import main
 from parts.base.refusal import SceneError
+from parts.base.registry import KINDS
 from parts.scene.load import load_scene
+from parts.scene.schema import scene_schema
 
 ROWS = [[float(a), round(10 - 10 * math.cos(math.radians(a)), 3)] for a in range(0, 360, 15)]
 _CAM = """
@@ -108,6 +110,17 @@ def test_a_file_that_tells_no_motion_is_refused(
         load_scene(str(tmp_path / "s.toml"))
     assert (refusal.value.key, refusal.value.code) == ("parts.cam.motion_table.file", code)
     assert {key: refusal.value.numbers[key] for key in numbers} == numbers
+
+
+@pytest.mark.parametrize("kind", ["cam", "linkage_cam", "groove_cam", "barrel_cam"])
+def test_editors_know_it(kind: str) -> None:
+    import jsonschema
+
+    plain = json.loads(scene_schema())["$defs"][KINDS[kind].keys.__name__]["properties"]["motion_table"]
+    judge = jsonschema.Draft202012Validator(plain)
+    assert judge.is_valid({"file": "lift.csv"})
+    assert judge.is_valid(ROWS)
+    assert not judge.is_valid({"path": "lift.csv"})
 
 
 def test_a_table_of_other_keys_is_no_motion(tmp_path: Path) -> None:
