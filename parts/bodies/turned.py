@@ -80,7 +80,7 @@ class GrooveTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A groove round a step, as for a ring that holds a bearing."""
 
     at: Annotated[float, part_mm("from the lower end of the step to the groove", least=0)]
-    width: Annotated[float, part_mm("width of the groove", above=0)]
+    width: Annotated[float, part_mm("width of the groove", least=0.01)]
     diameter: Annotated[float, part_mm("at its bottom", above=0)]
     fillet: Annotated[float, part_mm("rounding of its bottom", least=0)] = 0.0
 

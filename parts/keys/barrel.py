@@ -45,7 +45,7 @@ _CONE_ANGLE = degrees(
     example=20.0,
 )
 _LENGTH = part_mm("length of the barrel; default: the groove and end_margin", above=0, example=60.0)
-_END_MARGIN = part_mm("material between the groove and each end; default: the roller's radius", above=0, example=8.0)
+_END_MARGIN = part_mm("material between the groove and each end; default: the roller's radius", least=0.01, example=8.0)
 _FORM = Meta(description="groove: moves the roller both ways; end: a spring holds it", examples=["groove"])
 _ROLLER_FORM = Meta(description="conical: thinner towards the cam's axis, so that it rolls and hardly slides")
 
@@ -56,7 +56,7 @@ class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
     form: Annotated[Literal["groove", "end"], _FORM]
     outer_diameter: Annotated[float, part_mm("diameter of the barrel", above=0, example=60.0)]
     roller_diameter: Annotated[float, _ROLLER_DIAMETER]
-    groove_depth: Annotated[float, part_mm("depth of the groove, or width of the track", above=0, example=8.0)]
+    groove_depth: Annotated[float, part_mm("depth of the groove, or width of the track", least=0.01, example=8.0)]
     roller_form: Annotated[Literal["cylindrical", "conical"], _ROLLER_FORM] = "cylindrical"
     cone_angle_deg: Annotated[float, _CONE_ANGLE] | None = None
     lift: Annotated[float, part_mm("lift H along the axis", least=0), start(20.0)] = 0.0

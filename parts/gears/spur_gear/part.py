@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 from msgspec import Meta, Struct
 
 from geometry.base.errors import LateError, Nearest, ParameterError
-from geometry.base.findings import Finding
+from geometry.base.findings import Finding, beyond
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import (
@@ -230,7 +230,7 @@ def _chamfer_finding(keys: SpurGearSpec) -> tuple[Finding, ...]:
     """The remark that a tip rounding keeps some of its radius where a plain chamfer would leave none: sizes in mm."""
     given, whole = keys.face_chamfer, (1 - KEPT_ROUNDING) * keys.tip_rounding
     deepest = max(given.below, given.above) if isinstance(given, FaceChamferTable) else given
-    return (Finding("tip_rounding_kept", deepest, whole),) if deepest > whole > 0 else ()
+    return beyond("tip_rounding_kept", deepest, whole) if whole > 0 else ()
 
 
 @told_in_keys

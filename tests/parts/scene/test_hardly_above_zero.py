@@ -10,7 +10,8 @@ import pytest
 from exporters.command.cli import main
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
-from tests.offered import put
+from tests.exporters.making import table
+from tests.offered import PHASES, put
 from tests.parts.limits import refused, scene_of
 
 GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
@@ -49,13 +50,35 @@ def test_a_length_hardly_above_zero_is_refused_by_its_key(
 )
 def test_the_least_length_is_built(part: dict[str, Any], keys: str, tmp_path: Path) -> None:
     """STL keeps seven digits of a place: 1e-6 mm on a gear of 44 mm are none of them."""
-    lines = [f"{name} = {value!r}".replace("'", '"') for name, value in part.items() if name != "bore"]
-    if "bore" in part:
-        size = "diameter" if part is KEYED else "across_flats"
-        lines.append(f'bore = {{ shape = "{part["bore"]["shape"]}", {size} = 12.0, corner_radius = 1e-4 }}')
-    else:
-        lines.append(f"{keys} = 1e-4")
-    exports = "".join(f'\n[[exports]]\nformat = "{form}"\n' for form in ("dxf", "stl", "step"))
-    scene = tmp_path / "tiny.toml"
-    scene.write_text("[parts.p]\n" + "\n".join(lines) + "\n" + exports, "utf-8")
-    assert main(["build", str(scene), "--out", str(tmp_path / "out")]) == 0
+    rounded = {"bore": part["bore"] | {"corner_radius": 1e-4}} if "bore" in part else {keys: 1e-4}
+    assert built(part | rounded, tmp_path) == 0
+
+
+def built(part: dict[str, Any], folder: Path) -> int:
+    """The exit code of the build of a part, read back."""
+    scene = folder / "tiny.toml"
+    exports = "".join(table("[[exports]]", {"format": form}) for form in ("dxf", "stl", "step"))
+    scene.write_text(table("[parts.p]", part) + exports, "utf-8")
+    return main(["build", str(scene), "--out", str(folder / "out")])
+
+
+GROOVED = {"kind": "shaft", "steps": [{"diameter": 20.0, "length": 40.0,
+                                       "grooves": [{"at": 20.0, "width": 1.3, "diameter": 18.0}]}]}  # fmt: skip
+BARREL = {"kind": "barrel_cam", "form": "groove", "outer_diameter": 60.0, "groove_depth": 5.0, "roller_diameter": 8.0,
+          "lift": 15.0, "end_margin": 4.0, "phases": PHASES}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("part", "place"),
+    [(GROOVED, ("steps", 0, "grooves", 0, "width")), (BARREL, ("groove_depth",)), (BARREL, ("end_margin",))],
+)
+def test_grooves_and_their_margins_are_a_hundredth_at_least(
+    part: dict[str, Any], place: tuple[str | int, ...], tmp_path: Path
+) -> None:
+    """Of 0.0001 mm their STL failed: no triangle of the groove, no wall for the roller."""
+    refusal = refused(put(scene_of(part), ("parts", "p", *place), 1e-4))
+    assert isinstance(refusal, SceneError)
+    assert refusal.code == "not_allowed"
+    assert "at least 0.01, " in str(refusal)
+    least = put(scene_of(part), ("parts", "p", *place), 0.01)
+    assert built(least["parts"]["p"], tmp_path) == 0
