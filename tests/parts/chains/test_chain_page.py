@@ -100,6 +100,16 @@ def test_the_second_sprocket_of_a_scene_has_its_own_tooth_form(
             assert found[name][end] == pytest.approx(alone[name], rel=1e-12), (name, end)
 
 
+def test_what_only_the_standard_of_the_first_has_is_none_of_the_seconds() -> None:
+    """Form 0.25 of ISO 606 was asked of GOST 591, where nothing was said of the second's."""
+    drive = ("chain=08B-1", "number_of_teeth=17", "form=0.25", "mate_number_of_teeth=38", "number_of_links=80")
+    found = values(*drive, "mate_tooth_form=GOST 591")
+    alone = json.loads(
+        calculate("sprocket", ["chain=08B-1", "number_of_teeth=38", "tooth_form=GOST 591"], "json", "en")
+    )
+    assert found["sprocket_over_pins"]["second"] == pytest.approx(alone["values"]["sprocket_over_pins"], rel=1e-12)
+
+
 def test_a_scene_gives_its_drive() -> None:
     found = values("chain_drive", "part=pinion")
     assert found["number_of_links"] == 80

@@ -333,6 +333,10 @@ REFUSED: list[tuple[Keys, Keys, str, str]] = [
     (BENT | {"frame_length": 170.0, "coupler_length": 123.0, "lever_length": 96.0, "arm_length": 121.0,
              "arm_angle_deg": 90.0, "rod_length": 109.0, "rocker_length": 95.0, "pivot_distance": 49.0,
              "pivot_angle_deg": -179.0, "second_side": -1}, {}, "mechanism.pivot_distance = 49.0", ""),
+    # and the mirror image of that
+    (BENT | {"frame_length": 170.0, "coupler_length": 123.0, "lever_length": 96.0, "arm_length": 121.0,
+             "arm_angle_deg": -90.0, "rod_length": 109.0, "rocker_length": 95.0, "pivot_distance": 49.0,
+             "pivot_angle_deg": 179.0, "first_side": 1}, {}, "mechanism.pivot_distance = 49.0", ""),
     ({"first": "rods", "crank_length": 20.0}, {}, "mechanism.frame_length", ""),
 ]  # fmt: skip
 
@@ -512,6 +516,11 @@ def test_stones_and_sliders_stand_along_what_they_slide_on(tmp_path: Path) -> No
     text += "".join(BLOCK.format(part=part, height=height) for part, height in (("stone", 3.0), ("slider", 6.0)))
     text += '[[drives]]\ninstance = "crank"\n[[exports]]\nformat = "motion"\n'
     assert main(["build", str(written(tmp_path, text)), "--out", str(tmp_path), "-q"]) == 0
+    report = json.loads((tmp_path / "m" / "report.json").read_text("utf-8"))
+    assert [(mate["second"], mate["unit"]) for mate in report["checks"]["mates"]] == [
+        ("stone", "deg"),
+        ("slider", "mm"),
+    ]
     solved = Solved(SLOTTED)
     for k in range(60):
         lever = solved.turned(math.tau * k / 60)["slotted_lever"][1]
