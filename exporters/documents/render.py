@@ -14,7 +14,7 @@ from parts.base.refusal import SceneError
 from parts.base.texts import N_, Text, Words, words
 from parts.pages.inputs import PLACE
 from parts.pages.page import Section, Sheet, Step, formula_text, number, numbers_text
-from parts.pages.symbols import symbol_text
+from parts.pages.symbols import subscripts, symbol_text
 from parts.pages.tables import csv_table, html_table, markdown_table, plain_table, table_data
 from parts.pages.text import printed_text, result_text, source_text, step_name
 
@@ -148,7 +148,7 @@ def _html_section(section: Section, told: Words) -> str:
         remark = f' <span class="w">{html.escape(misprint)}</span>' if misprint else ""
         cells = [
             f"<td>{html.escape(name)}</td>",
-            f'<td class="f">{_subscripts(working)}</td>',
+            f'<td class="f">{subscripts(working)}</td>',
             f'<td class="r">{html.escape(result)}</td>',
             f"<td>{html.escape(source)}{remark}</td>",
         ]
@@ -159,13 +159,6 @@ def _html_section(section: Section, told: Words) -> str:
 def _is_number(step: Step) -> bool:
     """Whether a step's value is a number or a fraction, no words."""
     return not isinstance(step.value, str) or re.fullmatch(r"-?\d+(/\d+)?", step.value) is not None
-
-
-def _subscripts(text: str) -> str:
-    """r_b1 as r with a lowered b1, z1 as z with a lowered 1; u_2'3^H with a lowered 2'3 and a raised H."""
-    text = re.sub(r"_(\d+&#x27;\w+|(?:[^\W_²³]|[.,](?=\d))+)", r"<sub>\1</sub>", html.escape(text))
-    text = re.sub(r"\^(\w+)", r"<sup>\1</sup>", text)
-    return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)
 
 
 def _json(sheet: Sheet, told: Words) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 
 from parts.base.psv import rows_of
@@ -31,3 +32,10 @@ def head_text(name: str) -> str:
 def lowered(text: str) -> str:
     """A symbol as sheets have it, its index in braces: d_{a1}."""
     return re.sub(r"_([\w.,]+)", r"_{\1}", text)
+
+
+def subscripts(text: str) -> str:
+    """r_b1 as r with a lowered b1, z1 as z with a lowered 1; u_2'3^H with a lowered 2'3 and a raised H: HTML."""
+    text = re.sub(r"_(\d+&#x27;\w+|(?:[^\W\d_]\.){2}|(?:[^\W_²³]|[.,](?=\d))+)", r"<sub>\1</sub>", html.escape(text))
+    text = re.sub(r"\^(\w+)", r"<sup>\1</sup>", text)
+    return re.sub(r"(?<![\w&;#>])([A-Za-zα-ω])([12])(?![\w.])", r"\1<sub>\2</sub>", text)

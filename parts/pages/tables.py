@@ -8,7 +8,7 @@ from typing import Any
 
 from parts.base.texts import Words
 from parts.pages.page import Table, not_finite, shortest, unit_text
-from parts.pages.symbols import head_text
+from parts.pages.symbols import head_text, subscripts
 
 # decimals of a column, and of one whose numbers are small
 _DIGITS, _MOST = 4, 8
@@ -59,8 +59,8 @@ def markdown_table(table: Table, words: Words) -> list[str]:
 
 def html_table(table: Table, words: Words) -> str:
     """A table of a page."""
-    head = "".join(f"<th>{html.escape(h)}</th>" for h in _heads(table, words))
-    rows = ["".join(f"<td>{cell}</td>" for cell in row) for row in _rows(table, words)]
+    head = "".join(f"<th>{subscripts(h)}</th>" for h in _heads(table, words))
+    rows = ["".join(f"<td>{subscripts(cell)}</td>" for cell in row) for row in _rows(table, words)]
     body = "\n".join(f"<tr>{row}</tr>" for row in (head, *rows))
     return f"<h2>{html.escape(words.phrase(words.say(table.title)))}</h2>\n<table>\n{body}\n</table>"
 

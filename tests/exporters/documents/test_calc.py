@@ -303,6 +303,7 @@ def test_the_misprinted_inequality_and_left_side_are_named() -> None:
     assert "x = 0: табл. 1.1\n" in told
     page = calculate("tmm42", ["module=10", "number_of_teeth=10"], "html", "uk")
     assert '<td class="f">x<sub>0,3</sub></td>' in page
+    assert "<td>d<sub>Ff</sub></td>" in page
     assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
 
 

@@ -283,6 +283,7 @@ def test_both_languages_hold_the_table() -> None:
     text = calculate("cam", ["guidelines_cam"], "text", "uk")
     assert "м'який удар за кута повороту 90°" in text
     assert "лінійно спадне прискорення" in text
+    assert "φ<sub>д.в.</sub>" in calculate("cam", ["guidelines_cam"], "html", "uk")
 
 
 @pytest.mark.parametrize(
