@@ -18,10 +18,14 @@ def add_findings(table: Mapping[str, Text]) -> None:
 
 
 def finding_message(finding: Finding) -> Message:
-    """A finding as a sentence that waits for its language; limits work as they are told, ``most``: a greatest one."""
+    """A finding as a sentence that waits for its language; limits work as they are told, ``most``: a greatest one.
+
+    ``exact``: one that is no limit.
+    """
     value, limit = finding.value, finding.limit
     near, most = Told(limit, up=limit > value), Told(limit, up=False)
-    return filled(FINDINGS[finding.code], value=value, limit=near, most=most, lack=limit - value)
+    numbers = {"value": value, "limit": near, "most": most, "exact": limit, "lack": limit - value}
+    return filled(FINDINGS[finding.code], **numbers)
 
 
 def finding_of(gear: int, finding: Finding) -> Message:

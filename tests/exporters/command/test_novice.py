@@ -337,7 +337,7 @@ def test_a_poor_part_is_told_whatever_file_it_is_in(
     (file := tmp_path / "x.toml").write_text(f"{part}{board}[[exports]]\n{export}\n", encoding="utf-8")
     assert main(["build", str(file), "--out", str(tmp_path), "--no-verify"]) == 0
     told = [line for line in capsys.readouterr().out.splitlines() if "undercut" in line]
-    assert told == ["note: a: the tooth is undercut: profile shift 0.0000 is below x_min = 0.2981"]
+    assert told == ["note: a: the tooth is undercut: profile shift 0.0000 is below x_min = 0.2982"]
 
 
 @pytest.mark.parametrize(

@@ -104,7 +104,7 @@ def test_a_thread_that_ends_within_the_contact_is_found(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], length: float, told: bool
 ) -> None:
     main(["check", str(_scene(tmp_path, length=length))])
-    assert ("the thread is 71.8 mm long, the wheel touches it over 71.958 mm" in capsys.readouterr().out) is told
+    assert ("the thread is 71.8 mm long, the wheel touches it over 71.959 mm" in capsys.readouterr().out) is told
 
 
 def test_a_wheel_of_a_larger_hob_has_no_lines(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
