@@ -97,7 +97,7 @@ def _if_made(table: StraightSplineTable | InvoluteSplineTable, size: str) -> Cur
     return lambda: Nearest(size) if size != table.size and kept(_has_joint, changed(table, size=size)) else None
 
 
-def _has_joint(table: StraightSplineTable | InvoluteSplineTable) -> bool:
+def _has_joint(table: _SplineTable) -> bool:
     return table.joint() is not None
 
 
@@ -109,6 +109,10 @@ def _check_clearance(clearance: float) -> None:
 
 class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
     """What both sorts of splines do."""
+
+    def joint(self) -> StraightJoint | InvoluteJoint:
+        """The joint of its keys; ParameterError with the key below ``bore``."""
+        raise NotImplementedError
 
     def bore(self) -> SplineBore:
         """The slots of its hub; ParameterError with the key below ``bore``."""
@@ -124,9 +128,9 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
             # of small sizes that are typed the one that alone is too much
             small = [one for one in dict.fromkeys((key, *_SMALL)) if one in _SMALL and getattr(self, one, None)]
             ways = [(one, 0.0) for one in small]
-            if key == "root_rounding" and "chamfer" in small and isinstance(refusal.value, float):
+            if "chamfer" in small and kept(_has_joint, self):
                 # a mouth as wide as the rounding lets it in
-                ways.append(("chamfer", refusal.value))
+                ways.append(("chamfer", getattr(self.joint(), "rounding", 0.0)))
             told = refusal
             for one, works in ways:
                 if kept(partial(self._fits, one), works):
