@@ -148,6 +148,7 @@ class _Making(Making):
             self.put("cam_follower", "cam", "follower")
         self.part("follower", kind="follower", end=keys.follower, face_width=thick, **stem)
         self.found.drives.append({"instance": "cam", "turns": 1.0})
+        self.order("spaced" if "spacer_1" in self.found.instances else keys.follower)
         self.name_all()
         return self.found
 

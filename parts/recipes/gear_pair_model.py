@@ -59,6 +59,7 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
     making.mate("external_gear_pair", *_WHEELS, normal_backlash=keys.normal_backlash)
     for number, wheel in enumerate(_WHEELS, 1):
         making.put("coaxial", wheel, f"axle_{number}", "axle", height=-thick)
+    making.order("")
     making.name_all()
     return making.found
 

@@ -151,3 +151,41 @@ def test_a_guide_that_meets_the_cam_is_refused(tmp_path: Path, capsys: pytest.Ca
     assert said.count("\n") == 1
     assert "assemblies[1].slot_start = 9.0" in said
     assert "at least 15" in said
+
+
+MODELS = {
+    "flat": ('kind = "cam_model"\nfollower = "flat"\nbase_circle_radius = 45.0\n', 4),
+    "roller": ('kind = "cam_model"\nfollower = "roller"\nfollower_radius = 8.0\nbase_circle_radius = 35.0\n', 8),
+    # pins so near each other that no rings go about them
+    "bare": (
+        'kind = "cam_model"\nfollower = "roller"\nfollower_radius = 8.0\nbase_circle_radius = 35.0\n'
+        "guide_pin_spacing = 6.5\n", 6,
+    ),
+    "pair": ('kind = "gear_pair_model"\nteeth = [16, 29]\n', 3),
+}  # fmt: skip
+PHASES = """lift = 20.0
+phases = [
+    { move = "rise", angle_deg = 120.0, law = "sine" },
+    { move = "return_", angle_deg = 120.0, law = "sine" },
+    { move = "dwell", angle_deg = 120.0 },
+]
+"""
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_model_goes_together_in_the_order_told(
+    model: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Every part comes straight to its place; what turns is not told to be held fast."""
+    keys, steps = MODELS[model]
+    file = tmp_path / "s.toml"
+    text = f'[[assemblies]]\n{keys}{"" if model == "pair" else PHASES}[[exports]]\nformat = "stl"\n'
+    file.write_text(text, encoding="utf-8")
+    assert main(["check", str(file)]) == 0
+    assert f"order of assembly, {steps} steps: each part reaches its place straight" in capsys.readouterr().out
+    assert main(["build", str(file), "--out", str(tmp_path), "--no-verify"]) == 0
+    told = (tmp_path / "s" / "s.notes.txt").read_text(encoding="utf-8")
+    assert len(re.findall(r"(?m)^\d+\. ", told)) == steps
+    held = re.findall(r"(?m)^\d+\. (.*) to .*held fast$", told)
+    assert not re.search("Roller|Cam$|Pinion|Wheel|Follower", ", ".join(held))
+    assert ("Axle of the cam" in held) == (model != "pair")
