@@ -6,8 +6,6 @@ import errno
 import os
 from pathlib import Path, PurePosixPath
 
-from geometry.base.errors import ParameterError
-
 
 class NotAFileError(OSError):
     """A pipe, which might never begin, or a device, which might never end."""
@@ -35,6 +33,9 @@ def content_beside(name: str, folder: Path, most: int) -> bytes:
     ParameterError
         ``file``: it lies elsewhere, or cannot be read.
     """
+    # the language of a scene is read without it
+    from geometry.base.errors import ParameterError
+
     told = PurePosixPath(name.replace("\\", "/"))
     if told.is_absolute() or ":" in name or ".." in told.parts:
         raise ParameterError("file", name, "file_elsewhere")

@@ -78,7 +78,7 @@ def test_sizes_of_a_thread_are_its_nominal_diameter_and_its_end() -> None:
 
 
 def test_designations_stand_where_a_table_tells_the_corners() -> None:
-    steps = [{"diameter": 10.0 + k, "length": 5.0} for k in range(18)]
+    steps = [{"diameter": 10.0 + k, "length": 5.0} for k in range(24)]
     steps[2] = {"diameter": 12.0, "length": 5.0, "thread": "M12"}
     (view, *_) = drawing_of({"kind": "shaft", "steps": steps}).views
     assert [(s.before, s.value, s.after) for s in view.sizes if s.before] == [("M", 12.0, "-6g")]

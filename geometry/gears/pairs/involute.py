@@ -11,7 +11,7 @@ direction, and so does the mesh.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
@@ -361,25 +361,39 @@ class InvolutePair(Record, Generic[G, S], dict=True):
             Margin.above("normal_backlash", self.normal_backlash, 0.0),
         )
 
-    def _start_margins(self) -> list[Margin]:
-        """Those of where both flanks start."""
-        line, sign, found = self._line_of_action, self.sign, []
-        for index, (role, way) in enumerate(zip(self.roles, (1, sign), strict=True)):
-            start, form, corner = (
-                self._start_tangents()[index],
-                self._form_tangents()[index],
-                self.touching_corners[1 - index],
+    def flank_starts(self) -> tuple[Margin, Margin]:
+        """Where the mate's tip asks each flank to start against where its involute does, as blocking contours have it.
+
+        In mm along the line of action from the base circle; ``active_flank_cut_away_*``: undercut has taken the start.
+        """
+        one, two = (
+            Margin(
+                f"{'active_flank_cut_away' if cut else 'fillet_interference'}_{role}", start, form, way * (start - form)
             )
-            mate, cut = self.gears[1 - index], self._flank_cut_away()[index]
-            if cut:
-                found.append(Margin.above(f"active_flank_cut_away_{role}", start, form))
+            for role, start, form, cut, way in zip(
+                self.roles,
+                self._start_tangents(),
+                self._form_tangents(),
+                self._flank_cut_away(),
+                (1, self.sign),
+                strict=True,
+            )
+        )
+        return one, two
+
+    def _start_margins(self) -> Iterator[Margin]:
+        """Those of where both flanks start, and of corners that already run into the fillet below."""
+        line, sign = self._line_of_action, self.sign
+        for index, (margin, way) in enumerate(zip(self.flank_starts(), (1, sign), strict=True)):
+            corner, cut = self.touching_corners[1 - index], self._flank_cut_away()[index]
+            if cut or corner is None:
+                yield margin
             if corner is not None:
-                along = tangent_length(corner, mate.base_radius)
+                along = tangent_length(corner, self.gears[1 - index].base_radius)
                 end = line - sign * along if index else sign * (line - along)
-                form = end if cut else way * max(way * form, way * end)
-            if corner is not None or not cut:
-                found.append(Margin(f"fillet_interference_{role}", start, form, way * (start - form)))
-        return found
+                form = end if cut else way * max(way * margin.limit, way * end)
+                name = f"fillet_interference_{self.roles[index]}"
+                yield Margin(name, margin.value, form, way * (margin.value - form))
 
     def findings(self) -> tuple[Finding, ...]:
         """The limits that are not kept; a margin within rounding of the pair's size counts as kept."""

@@ -4,7 +4,7 @@ All in modules, z1 drives; of helical teeth in normal modules, lengths those of 
 a spur pair does, and the contact ratio is the total one. Each condition is a function of x1, x2 that is >= 0 where it
 is kept; its line is where it is 0. The tips follow ``shortened_tips``: r_a = r + h_a + x - k with k = x1 + x2 - y
 (GOST 16532-70), or k = 0; the distance is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; practicum
-1, below (1.3).
+1, below (1.3). Corners of tips that run into a fillet below its end are no line of it: pairs make such tips shorter.
 """
 
 from __future__ import annotations

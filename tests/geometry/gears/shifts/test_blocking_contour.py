@@ -72,11 +72,11 @@ def test_closed_forms_agree_with_built_pairs() -> None:
             kinds.add(("thin", state.tip_thicknesses[i] < 0.3))
             kinds.add(("undercut", limits.undercut(gear).margin < 0))
             flank = active_flank(pair, x1, x2, i)
-            twin = made.margins()[i]
+            twin = made.flank_starts()[i]
             assert (flank.value, flank.limit) == pytest.approx((twin.value, twin.limit), abs=1e-7)
             kinds.add((twin.name.rsplit("_", 1)[0], twin.margin < 0))
         # sliding counts from the ends of the flanks that are there
-        if all(m.margin > 0 for m in made.margins()[:2]):
+        if all(m.margin > 0 for m in made.flank_starts()):
             assert state.root_sliding(pair.gear_ratio) == pytest.approx(active_line(made).root_sliding, rel=1e-7)
     assert {
         ("fillet_interference", True),
@@ -97,7 +97,7 @@ def told(made: ExternalPair, pair: ShiftPair, x1: float, x2: float) -> dict[str,
         # h_Ff sin^2 less z / 2 sin^2: the rack's straight flank ends where the line of action begins
         sine = math.sin(pair.rack.pressure_angle) ** 2
         found[f"undercut_{who}"] = (x1, x2)[i] - (pair.rack.form_dedendum - gear.number_of_teeth / 2 * sine)
-        found[f"active_flank_{who}"] = made.margins()[i].margin
+        found[f"active_flank_{who}"] = made.flank_starts()[i].margin
     return found
 
 
@@ -145,7 +145,7 @@ def test_helical_teeth_are_judged_by_their_section_in_normal_modules(helix: floa
             assert 2 * found[f"tip_thickness_{who}"].value == pytest.approx(limits.tip_thickness(gear), abs=1e-9)
             least = limits.undercut(gear)
             assert 2 * found[f"undercut_{who}"].margin == pytest.approx(least.margin * made.module, abs=1e-9)
-            flank, twin = found[f"active_flank_{who}"], made.margins()[i]
+            flank, twin = found[f"active_flank_{who}"], made.flank_starts()[i]
             assert (2 * flank.value, 2 * flank.limit) == pytest.approx((twin.value, twin.limit), abs=1e-7)
             kinds.add(twin.name.rsplit("_", 1)[0])
         named = {c.name: c.level for c in conditions(pair).values()}
@@ -215,7 +215,7 @@ def test_the_region_is_where_all_requirements_hold() -> None:
         except GeometryError:
             assert not inside
             continue
-        legal = all(m.margin >= 0 for m in made.margins()[:2]) and made.contact_ratio >= WISH.contact_ratio
+        legal = all(m.margin >= 0 for m in made.flank_starts()) and made.contact_ratio >= WISH.contact_ratio
         legal = legal and all(limits.thin_tip(g).margin >= 0 <= limits.undercut(g).margin for g in made.gears)
         assert legal == inside
     assert seen == {True, False}

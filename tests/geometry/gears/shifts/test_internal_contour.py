@@ -82,7 +82,9 @@ def measured(make: Callable[[], InternalPair]) -> dict[str, float]:
         made = make()
     except GeometryError:
         return {}
-    found = {m.name: m.margin for m in (*made.margins(), *ring_limits.margins(made.ring))}
+    # corners that run into a fillet below are no line of contours: tips that would are made shorter
+    every = *made.margins(), *ring_limits.margins(made.ring), *made.flank_starts()
+    found = {m.name: m.margin for m in every}
     found |= {
         "undercut_first": limits.undercut(made.pinion).margin,
         "tip_thickness_first": limits.tip_thickness(made.pinion),
