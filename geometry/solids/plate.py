@@ -94,9 +94,12 @@ class PlateOutline(Record):
         sizes = [_size(hole) for hole in self.holes]
         wall = 2 * _LEAST_WALL * min([1.0, *sizes])
         rooms = dict[str, tuple[float, float]]()
-        for key, size, clear in zip(keys, sizes, _clearances(self.edges, self.holes).tolist(), strict=True):
+        clearances = _clearances(self.edges, self.holes).tolist()
+        for k, (key, size, clear) in enumerate(zip(keys, sizes, clearances, strict=True)):
             if not (size > 0 and clear >= wall):
-                room = size + 2 * (clear - wall) if size > 0 else -math.inf
+                # the wall goes by the smallest hole, which this one may become
+                others, whole = min([1.0, *sizes[:k], *sizes[k + 1 :]]), size + 2 * clear
+                room = max(whole - 4 * _LEAST_WALL * others, whole / (1 + 4 * _LEAST_WALL)) if size > 0 else -math.inf
                 rooms[key] = size, min(room, rooms.get(key, (size, room))[1])
         # several holes may have one key: the one that has least room tells what works
         for key, (size, room) in rooms.items():

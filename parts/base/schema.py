@@ -82,8 +82,8 @@ def converted(table: object, kind: type[Struct], source: str, place: str) -> Any
         named = [i for i, key in enumerate(keys) if not key.isdigit()][-1]
         held = _types_of(_owner(kind, keys[:named], table)).get(keys[named])
         if any(meta.extra and meta.extra.get("length") and meta.ge == 0 for meta in _metas(held)):
-            works = Nearest(LEAST_LENGTH, "at_least")
-            raise SceneError(source, _written(place, keys), value, "hardly_above_zero", works, unit=_unit(held))
+            least = in_unit(f"{LEAST_LENGTH:g}", LEAST_LENGTH, _unit(held))
+            raise SceneError(source, _written(place, keys), value, "hardly_above_zero", None, least=least)
     return made
 
 

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from exporters.command.cli import main
-from geometry.base.errors import Nearest
-from parts.base.refusal import SceneError
+from parts.base.refusal import SceneError, sentence
 from tests.exporters.making import table
 from tests.offered import PHASES, put
 from tests.parts.limits import refused, scene_of
@@ -39,8 +38,8 @@ def test_a_length_hardly_above_zero_is_refused_by_its_key(
         refusal = refused(put(scene_of(part), ("parts", "p", *place), value))
         assert isinstance(refusal, SceneError)
         assert (refusal.key, refusal.value) == (f"parts.p.{'.'.join(map(str, place))}", value)
-        assert (refusal.code, refusal.unit) == ("hardly_above_zero", unit)
-        assert refusal.nearest == Nearest(1e-4, "at_least")
+        assert (refusal.code, refusal.nearest) == ("hardly_above_zero", None)
+        assert f"allowed are 0, or 0.0001 {unit} and more" in sentence(refusal, "en")
     for value in (0.0, 1e-13, 1e-4):
         assert refused(put(scene_of(part), ("parts", "p", *place), value)) is None
 
