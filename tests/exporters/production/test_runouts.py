@@ -176,7 +176,7 @@ def test_smaller_sizes_stand_nearer_where_one_had_to_be_placed_before_them(tmp_p
     gear = PARTS["bevel"] | {"module": 10.0, "number_of_teeth": 90, "mate_number_of_teeth": 18, "face_width": 120.0,
                              "profile_shift_coefficient": 0.0, "hub_diameter": 260.0, "hub_length": 80.0,
                              "bore": {"shape": "round", "diameter": 150.0}}  # fmt: skip
-    dxf, _ = written(tmp_path, gear, drawing=RUNOUTS)
+    (dxf,) = written(tmp_path, gear, formats=("dxf",), drawing=RUNOUTS)
     dimensions = Read(dxf).dimensions
     low = min(p.imag for _, _, points, _ in dimensions for p in points)
     below = sorted((value, line.imag) for value, _, points, line in dimensions

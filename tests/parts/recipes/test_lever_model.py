@@ -173,6 +173,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     return lambda name: built(folder, name)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ALL)
 def test_the_film_shows_the_mechanism(name: str, made: Callable[[str], Path]) -> None:
     """At 60 angles of the crank, every link; a millimetre more of one length is seen."""
@@ -341,6 +342,7 @@ REFUSED: list[tuple[Keys, Keys, str, str]] = [
 ]  # fmt: skip
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("mechanism", "keys", "said", "offered"), REFUSED)
 def test_what_cannot_be_cut_is_refused_by_its_key(
     mechanism: Keys, keys: Keys, said: str, offered: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -430,6 +432,7 @@ def test_links_of_another_mechanism_are_refused(
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("chosen", "scale"), [("assignment = 4", 200.0), ('code = "5530"', 10.0)])
 def test_a_scale_at_which_links_are_too_short_is_refused(
     chosen: str, scale: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
