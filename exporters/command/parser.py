@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, NoReturn
 
-from parts.base.reasons import REMEDIES
 from parts.base.texts import Words
 
 WRONG_INPUT = 2
@@ -106,6 +105,7 @@ def _options_of(parser: Parser, command: str | None = None) -> list[str]:
 
 def _refuse_strange(parser: Parser, strange: Sequence[str], command: str, known: Sequence[str]) -> NoReturn:
     """Words that are none of the options, with that which the first was probably meant for."""
+    from parts.base.reasons import REMEDIES
     from parts.base.refusal import meant
 
     text = parser.words.text("unrecognized arguments: %s") % " ".join(strange)

@@ -10,7 +10,6 @@ The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -65,6 +64,9 @@ class Told(float):
         return made
 
     def __format__(self, form: str) -> str:
+        # commands that tell no limit start without it
+        import math
+
         asked = _ASKED.fullmatch(form)
         if asked is None or self == 0 or not math.isfinite(self):
             return super().__format__(form)

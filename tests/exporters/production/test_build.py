@@ -372,7 +372,7 @@ def test_a_flat_file_of_a_gear_loads_nothing_of_solids_but_its_keys(tmp_path: Pa
         (["list"], ("numpy", "msgspec", "geometry", "parts.keys", "parts.gears", "parts.mates.involute")),
         (["new", "external_gear_pair"], ("numpy", "parts.gears", "geometry.solids")),
         *((["new", mate], ("numpy",)) for mate in ("bevel_pair", "worm_pair", "crossed_helical_pair")),
-        (["--help"], ("numpy", "msgspec", "dataclasses", "inspect", "shutil")),
+        (["--help"], ("numpy", "msgspec", "dataclasses", "inspect", "shutil", "math", "parts.base.reasons")),
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )
