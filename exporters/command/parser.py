@@ -74,7 +74,7 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
         Words that mean nothing.
     """
     # the dashes of a text editor begin no option, and no value
-    if printed := next((word for word in arguments if word[0:1] in _PRINTED_DASHES), None):
+    if printed := next((word for word in arguments if word and word[0] in _PRINTED_DASHES), None):
         _refuse_strange(parser, [printed], parser.prog, _options_of(parser))
     options, rest = parser.parse_known_args(arguments)
     several: tuple[str, Callable[[str], object]] | None = getattr(options, "several", None)

@@ -50,7 +50,7 @@ class Message(NamedTuple):
 Text = str | Message
 
 # how many decimals or digits a format asks for, and of a limit what is rounding and no step more
-_ASKED, _ROUNDING = re.compile(r"(?:\.(\d+))?([fg])"), 1e-10
+_ASKED, _ROUNDING = r"(?:\.(\d+))?([fg])", 1e-10
 
 
 class Told(float):
@@ -67,7 +67,7 @@ class Told(float):
         # commands that tell no limit start without it
         import math
 
-        asked = _ASKED.fullmatch(form)
+        asked = re.fullmatch(_ASKED, form)
         if asked is None or self == 0 or not math.isfinite(self):
             return super().__format__(form)
         decimals = int(asked[1] or 6)
