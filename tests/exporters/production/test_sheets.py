@@ -455,10 +455,10 @@ def test_a_helical_pair_shows_its_transverse_section_and_tells_normal_data(
     first, second, mate = HELICAL[kind]
     helix = {"helix_angle_deg": 20.0, "face_width": 30.0}
     raw = {
-        "scene": {"language": language}, "parts": {"one": {**first, **helix}, "two": {**second, **helix}},
+        "scene": {"language": language},
+        "parts": {"one": {**first, **helix, "profile_shift_coefficient": 0.2}, "two": {**second, **helix}},
         "mates": [{"kind": mate, "first": "one", "second": "two"}], "exports": [{"format": "sheet", "tolerance": 1e-3}],
     }  # fmt: skip
-    raw["parts"]["one"]["profile_shift_coefficient"] = 0.2  # type: ignore[index]
     for job in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets:
         job.write({}, tmp_path / job.path)
         assert job.verify(tmp_path / job.path, 0.0).failures == ()

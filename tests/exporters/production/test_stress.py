@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import mpmath
@@ -14,6 +15,7 @@ import pytest
 from exporters.production import atlas, stress
 from exporters.production.atlas import CASES, MP, Case
 from exporters.production.stress import Row, row_of
+from geometry.base.record import replace
 from tests.exporters.making import run
 
 # half a second and more for each of their values: quadratures and roots at 50 digits
@@ -45,11 +47,10 @@ def test_the_slowest_ones_are_stable_at_one_value() -> None:
     assert all(row_of(case, value).is_stable for case, value in firsts.values())
 
 
-def _with(case: str, ours: object) -> list[Row]:
+def _with(case: str, ours: Callable[..., complex]) -> list[Row]:
     """The rows of a case whose computation is another one."""
     real = next(c for c in CASES if c.name == case)
-    return [row_of(Case(real.name, real.varied, real.values, real.inputs, ours, real.truth, real.size), v)  # type: ignore[arg-type]
-            for v in real.values]  # fmt: skip
+    return [row_of(replace(real, ours=ours), value) for value in real.values]
 
 
 def test_textbook_formulas_that_lose_digits_are_found() -> None:
