@@ -5,9 +5,11 @@ All that it shows of a kind stands in the kind's keys: what they mean, their def
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from argparse import Namespace
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from itertools import takewhile
 from pathlib import Path
 from textwrap import wrap
@@ -17,6 +19,9 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import FieldInfo
 
+from exporters.command.asked import DONE, check_language, language_of_command, show_page
+from geometry.base.errors import Nearest
+from parts.base.refusal import SceneError, Typed, meant
 from parts.base.registry import KINDS
 from parts.base.schema import (
     as_toml,
@@ -36,8 +41,8 @@ from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
-from parts.scene.files import built_in_scenes
-from parts.scene.load import PLAIN, plain_tables
+from parts.scene.files import built_in_scenes, text_of
+from parts.scene.load import PLAIN, load_scene, plain_tables
 from parts.scene.scene_file import ExportSpec, SceneInfo
 
 # parts of the scene: a spur gear, the part that another is made from, a second one of a kind; others by their kind
@@ -89,6 +94,55 @@ _TAIL = """
 ## [[exports]]
 ## format = "step"
 ## assembly = true                            # {names}"""
+
+
+def run(options: Namespace) -> int:
+    """The exit code."""
+    check_language(options)
+    text = _made(options.kind, language_of_command(options)) or _scene_text(options)
+    show_page(plain_scene(text, options.kind) if options.expand else text, options)
+    return DONE
+
+
+def _made(name: str, language: str) -> str | None:
+    """The text for a kind or one of its tables; None of a scene: one that has the name of a kind has its ending."""
+    makers: tuple[tuple[Collection[str], Callable[[str, str], str]], ...]
+    makers = (KINDS, new_scene), (MATES, new_mate), (RECIPES, new_assembly)
+    for kinds, make in makers:
+        if name in kinds:
+            return make(name, language)
+    return None if name in _scenes() else new_table(name, language)
+
+
+def _scene_text(options: Namespace) -> str:
+    """The text of a built-in scene, or of a scene file that is to be expanded."""
+    scenes = _scenes()
+    if options.kind not in scenes:
+        if not (options.expand and os.path.isfile(options.kind)):
+            raise _unknown(options.kind)
+        # whatever is wrong with it is told first
+        load_scene(options.kind)
+    text = text_of(Path(scenes.get(options.kind, options.kind)).read_bytes())
+    if options.language is not None and options.kind in scenes and "\nlanguage = " not in text:
+        text = text.replace("[scene]\n", f'[scene]\nlanguage = "{options.language}"\n', 1)
+        text = text if options.language == ENGLISH else commented(text, words(options.language))
+    return text
+
+
+def _scenes() -> dict[str, Path]:
+    """The built-in scenes by their names, with and without their ending."""
+    return {address: file for name, file in built_in_scenes().items() for address in (name, file.name)}
+
+
+def _unknown(name: str) -> SceneError:
+    """The refusal of a name that is of no kind, table or scene."""
+    kind, _, key = name.partition(".")
+    if tables := tables_of_kind(kind):
+        near = meant(key, tables)
+        near = near and Nearest(f"{kind}.{near.value}", "meant")
+        return SceneError("new", Typed("KIND"), name, "unknown_table", near, known=[f"{kind}.{one}" for one in tables])
+    known = list(dict.fromkeys([*KINDS, *MATES, *RECIPES, *built_in_scenes()]))
+    return SceneError("new", Typed("KIND"), name, "unknown_kind", meant(name, known), known=known)
 
 
 def new_scene(kind: str, language: str = ENGLISH) -> str:

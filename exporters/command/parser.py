@@ -10,7 +10,6 @@ from typing import Any, NoReturn
 
 from parts.base.texts import Words
 
-WRONG_INPUT = 2
 # figure dash, en dash, em dash, bar and minus, which editors make of -
 _PRINTED_DASHES = "\u2012\u2013\u2014\u2015\u2212"
 
@@ -36,9 +35,22 @@ class Parser(argparse.ArgumentParser):
     """A parser that raises ``Misused``."""
 
     words: Words
+    # adds arguments that are not needed before this parser is asked
+    takes: Callable[[Parser], None] | None = None
 
     def __init__(self, **how: Any) -> None:
         super().__init__(formatter_class=_Help, **how)
+
+    def whole(self) -> Parser:
+        """This parser with all its arguments."""
+        takes, self.takes = self.takes, None
+        if takes is not None:
+            takes(self)
+        return self
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As argparse has it, which asks the parser of a command in this way too."""
+        return super(Parser, self.whole()).parse_known_args(args, namespace)
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         """A word that is none of the choices: with the one that was meant, as later versions of Python have it."""
@@ -100,7 +112,7 @@ def _options_of(parser: Parser, command: str | None = None) -> list[str]:
     """The options of one of the commands, or of all of them."""
     commands = {name: made for a in parser._actions if isinstance(a.choices, dict) for name, made in a.choices.items()}
     asked = [*commands.values(), parser] if command is None else [commands[command]]
-    return [one for made in asked for one in made._option_string_actions]
+    return [one for made in asked for one in made.whole()._option_string_actions]
 
 
 def _refuse_strange(parser: Parser, strange: Sequence[str], command: str, known: Sequence[str]) -> NoReturn:

@@ -82,10 +82,14 @@ def stopped_within(name: str, number: signal.Signals) -> Iterator[Stopping]:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_stop_within_an_import_waits_for_its_end(number: signal.Signals, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_stop_within_an_import_waits_for_its_end(
+    number: signal.Signals, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     """The module is whole, nothing of the list is printed, and the handlers are those of before."""
     import parts.base.densities  # noqa: F401
 
+    # what imports it is loaded anew
+    monkeypatch.delitem(sys.modules, "exporters.command.list", raising=False)
     before, traced = signal.getsignal(number), sys.gettrace()
     with stopped_within("parts.base.densities", number) as found:
         assert main(["list"]) == 130
@@ -102,7 +106,7 @@ def test_a_stop_between_imports_is_told_at_once(
         signal.raise_signal(signal.SIGINT)
         raise AssertionError
 
-    monkeypatch.setattr("parts.scene.files.built_in_scenes", stop)
+    monkeypatch.setattr(importlib.import_module("exporters.command.list"), "built_in_scenes", stop)
     assert main(["list"]) == 130
     said = capsys.readouterr()
     assert (said.out, said.err.count("\n")) == ("", 1)

@@ -10,7 +10,9 @@ from typing import Any
 
 import pytest
 
-from exporters.command.tables import _show_rich, converge_tables, verify_table
+from exporters.command.converge import converge_tables
+from exporters.command.tables import _show_rich
+from exporters.command.verify import verify_table
 from exporters.production.converge import METHODS, Order, Rung
 from parts.base.texts import words
 

@@ -309,7 +309,7 @@ def test_a_stop_that_a_loading_library_passes_over_still_stops(tmp_path: Path, l
     careless = "import os, signal\ntry:\n    os.kill(os.getpid(), signal.SIGINT)\nexcept BaseException:\n    pass\n"
     (tmp_path / "careless.py").write_text(careless, encoding="utf-8")
     lines = ["import sys", "from exporters.command import cli", "def listed(options):", f"    import careless{last}"]
-    lines += ["cli._list = listed", "sys.exit(cli.main(['list']))"]
+    lines += ["from exporters.command import list as asked", "asked.run = listed", "sys.exit(cli.main(['list']))"]
     (tmp_path / "stopped.py").write_text("\n".join(lines), encoding="utf-8")
     done = subprocess.run([sys.executable, "-m", "stopped"], cwd=tmp_path, capture_output=True, timeout=60, check=False)
     assert done.returncode == 130
