@@ -35,7 +35,7 @@ from geometry.plane.distance import Flags
 # to which the sought limit is given, so that it works when a printed one is typed back
 _NEAREST_DIGITS = 6
 # modules by which tips that yield keep off where they would touch a fillet or a root, and mm that are rounding
-OFF_ROOT, _SAME = 0.005, 1e-9
+_OFF_ROOT, _SAME = 0.005, 1e-9
 
 Gear = SpurGear | RingGear
 G = TypeVar("G", bound=Gear)
@@ -321,17 +321,17 @@ class InvolutePair(Record, Generic[G, S], dict=True):
     def tips_off_roots(self) -> tuple[float | None, float | None]:
         """Tip radii, mm, that keep off the mate's fillet and root where those of the pair reach it; None: as they are.
 
-        They lie ``OFF_ROOT`` off: corners run on beyond the end of the involute. Tips that no tooth could have so short
+        They lie ``off_root``: corners run on beyond the end of the involute. Tips that no tooth could have so short
         stay, and so do those of teeth that do not reach each other.
         """
-        a_w, sign, off = self.working_centre_distance, self.sign, OFF_ROOT * self.module
+        a_w, sign = self.working_centre_distance, self.sign
         roots = sign * (a_w - self.second.root_radius), a_w - sign * self.first.root_radius
         found: list[float | None] = [None, None]
         gears: tuple[SpurGear | G, ...] = self.gears
         for index, (gear, most, root) in enumerate(zip(gears, self.tip_limits, roots, strict=True)):
             limit = min(gear.sign * most / 2, gear.sign * root)
             if gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0:
-                tip = gear.sign * math.floor(1e4 * (limit - off)) / 1e4
+                tip = gear.sign * off_root(limit, self.module)
                 found[index] = tip if self._can_end(index, tip) else None
         return found[0], found[1]
 
@@ -420,6 +420,15 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         """The same to where the mate's tip touches; negative beyond the base circle's point of contact."""
         tips, line, sign = self._tip_tangents(), self._line_of_action, self.sign
         return sign * (line - tips[1]), line - sign * tips[0]
+
+
+def off_root(limit: float, module: float) -> float:
+    """The tip radius, mm, that keeps off one which touches, of teeth of a (transverse) module, below 0 of a ring.
+
+    Rounded down as tips are told, to 1e-4 mm, of modules below 0.1 mm to as many digits of them.
+    """
+    digits = 10.0 ** max(4, math.ceil(3 - math.log10(module)))
+    return math.floor(digits * (limit - _OFF_ROOT * module)) / digits
 
 
 class Sums(Record):

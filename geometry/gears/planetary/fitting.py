@@ -15,7 +15,7 @@ from functools import cached_property
 from geometry.base.angles import involute_function
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
-from geometry.gears.pairs.involute import OFF_ROOT
+from geometry.gears.pairs.involute import off_root
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
 from geometry.gears.shifts import external as blocking_contour
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
@@ -126,7 +126,8 @@ class RimMesh(Record, dict=True):
         most = self._made_reach(central_shift) - state.line
         if state.end <= most:
             return state.end
-        return math.sqrt(max((math.hypot(base, most) - OFF_ROOT) ** 2 - base**2, 0.0))
+        tip = off_root(self.module * math.hypot(base, most), self.module / self._share) / self.module
+        return math.sqrt(max(tip**2 - base**2, 0.0))
 
     def ratio_to(self, rim_shift: float, central_shift: float, end: float) -> float:
         """The contact ratio with the rim's tips cut down to ``end``, modules from its base circle."""

@@ -253,13 +253,17 @@ def test_without_a_working_pressure_angle_nothing_else_is_told_as_broken() -> No
     assert told == [f"mesh 1-2 {ending}", f"mesh 2-3 {ending}"]
 
 
-@pytest.mark.parametrize("teeth", [(39, 46, 128), (45, 19, 86), (31, 21, 76)])
-def test_the_contact_ratio_of_teeth_as_made_is_told(teeth: tuple[int, int, int]) -> None:
+@pytest.mark.parametrize(
+    ("teeth", "helix"),
+    [((39, 46, 128), 0.0), ((45, 19, 86), 0.0), ((31, 21, 76), 0.0), ((40, 24, 89), 27.5), ((59, 31, 121), 12.0)],
+)
+def test_the_contact_ratio_of_teeth_as_made_is_told(teeth: tuple[int, int, int], helix: float) -> None:
     """ISO 21771, of the parts: tips shortened for the sun reach less into the ring, 1.6374 alone was told of 39/46/128.
 
     Those that keep off the ring's fillets were told to reach them: 1.3201 in place of 1.3166, 1.4017 of 1.3982.
     """
-    keys = {"teeth": [*teeth], "satellites": 1, "module": 1.0, "shaft_diameter": 3.0, "pin_diameter": 3.0}
+    keys = {"teeth": [*teeth], "satellites": 1, "module": 1.0, "shaft_diameter": 3.0, "pin_diameter": 3.0,
+            "helix_angle_deg": helix}  # fmt: skip
     scene = scene_from_dict({"assemblies": [{"kind": "planetary_set", **keys}]}, "t", "t")
     parts, _ = make_parts(scene, "t")
     pinion, ring = parts["satellite"].thing, parts["ring"].thing
@@ -267,11 +271,23 @@ def test_the_contact_ratio_of_teeth_as_made_is_told(teeth: tuple[int, int, int])
     line = math.sqrt(
         (parts["carrier"].keys.pin_circle_diameter / 2) ** 2 - (ring.base_radius - pinion.base_radius) ** 2
     )
-    page = calculated(f"teeth=[{','.join(map(str, teeth))}]", "satellites=1")
+    page = calculated(f"teeth=[{','.join(map(str, teeth))}]", "satellites=1", f"helix_angle_deg={helix}")
     told = page["repeated"].get("made_contact_ratio", [page["values"]["made_contact_ratio"]])[-1]
-    made = (ends[0] - ends[1] + line) / (math.pi * math.cos(math.radians(20)))
-    # shortened tips are rounded to 1e-4 mm
-    assert told == pytest.approx(made, abs=1e-9 if teeth == (39, 46, 128) else 1e-4)
+    made = (ends[0] - ends[1] + line) * ring.number_of_teeth / (2 * math.pi * ring.base_radius)
+    assert told == pytest.approx(made, abs=1e-9)
+
+
+@pytest.mark.parametrize("module", [0.01, 0.03])
+def test_tips_of_small_modules_yield_as_far_as_those_of_large_ones(module: float) -> None:
+    """By modules: rounded to 1e-4 mm whatever the module, those of 0.01 mm lost up to 0.01 modules more."""
+
+    def tip(module: float) -> float:
+        sizes = {"module": module, "shaft_diameter": 3 * module, "pin_diameter": 3 * module}
+        keys = {"kind": "planetary_set", "teeth": [31, 21, 76], "satellites": 1, **sizes}
+        parts, _ = make_parts(scene_from_dict({"assemblies": [keys]}, "t", "t"), "t")
+        return float(parts["satellite"].thing.tip_radius) / module
+
+    assert tip(module) == pytest.approx(tip(100.0), abs=1e-3)
 
 
 @pytest.mark.parametrize(
