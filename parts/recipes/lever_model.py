@@ -1,9 +1,10 @@
 """The assembly ``lever_model``: a plane lever mechanism out of flat links and dowels, to be cut and turned by hand.
 
-From the back, in boards: frame; crank; over it the rod, or at once the lever in whose slot the crank's pin runs; the
-lever; the second rod; its rocker. Each link lies on the one before it, at its own axle on spacers as high. The pins
-are glued into one of both links and turn in the other; those of sliders go down to slots of the frame, in washers.
-Links of one layer are held apart all the way round.
+From the back, in boards: hand crank; frame; crank, glued to the axle that the hand crank turns; over it the rod, or at
+once the lever in whose slot the crank's pin runs; the lever; the second rod; its rocker. Each link lies on the one
+before it, at its own axle on spacers as high. The pins are glued into one of both links and turn in the other; those of
+sliders go down to slots of the frame, in washers. Caps on the free ends of dowels hold the links, wherever there is
+room for them. Links of one layer are held apart all the way round.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from msgspec import Meta, convert, field
 
 from geometry.base.errors import LateError, ParameterError
 from geometry.base.nearest import nearest
-from geometry.base.record import Draft, Record
+from geometry.base.record import Draft, Record, replace
 from parts.base.part_keys import Density, Material
 from parts.base.schema import tried, value_at
 from parts.keys.base import degrees, mm, start
@@ -44,8 +45,11 @@ if TYPE_CHECKING:
     from geometry.kinematics.levers import Slider
 
 # mm: walls about and between holes; between what moves in one layer; of slots beyond the way of a pin; how much shorter
-# dowels are than what they go through; of the frame about its axles and slots; its corners; rings about dowels
-_WALL, _APART, _SLACK, _SHORT, _BESIDE, _CORNER, _RING = 2.0, 1.0, 1.0, 0.5, 10.0, 6.0, 3.0
+# dowels are than what they go through; of the frame about its axles and slots; its corners; rings about dowels; the
+# handle of the hand crank
+_WALL, _APART, _SLACK, _SHORT, _BESIDE, _CORNER, _RING, _GRIP = 2.0, 1.0, 1.0, 0.5, 10.0, 6.0, 3.0, 20.0
+# length of the hand crank over the width of links
+_REACH = 2.5
 # mm within which joints are one
 _SAME = 1e-9
 # positions of the crank in which links of a layer are held apart
@@ -56,6 +60,8 @@ _CRANK_ROCKER = {
     "first": "rods", "crank_length": 25.0, "frame_length": 80.0, "coupler_length": 70.0, "lever_length": 50.0,
 }  # fmt: skip
 _CRANK_ANGLE = degrees("where the model is drawn; default: of the assignment, or 0", least=-360, most=360, example=60.0)
+_HAND_CRANK = Meta(description="behind the frame, on the axle of the crank; false: the crank turns on a fixed axle")
+_CAPS = Meta(description="on the free ends of dowels, where there is room: they keep the links from coming off")
 _CLEARANCE = mm("of slots and holes on the dowels that run in them", least=0, most=5)
 
 
@@ -74,6 +80,8 @@ class LeverModelKeys(RecipeKeys, kw_only=True, tag="lever_model"):
     clearance: Annotated[float, _CLEARANCE] = 0.3
     axle_diameter: Annotated[float, mm("of the dowels in the frame on which links turn", least=0.5, most=200)] = 6.0
     pin_diameter: Annotated[float, mm("of the dowels that join links", least=0.5, most=200)] = 4.0
+    hand_crank: Annotated[bool, _HAND_CRANK] = True
+    caps: Annotated[bool, _CAPS] = True
     material: Material | None = None
     density: Density | None = None
 
@@ -93,19 +101,28 @@ class _Link(Draft):
 class _Dowel(Record):
     """A dowel glued into a link (``0``: the frame) at a place of it, from below a layer to above another one.
 
-    ``key``: of the length that has put it there; ``rings``: whether rings lie about it below its upper layer.
+    ``key``: of the length that has put it there; ``rings``: whether rings lie about it below its upper layer; ``cap``:
+    the layer beyond its free end that a cap may have.
     """
 
     name: str
     link: str
     at: complex
+    size: float
     layers: tuple[int, int]
     key: str
     rings: str = ""
+    cap: int | None = None
+
+    @property
+    def capped(self) -> tuple[int, int]:
+        """The layers with that of the cap."""
+        cap = self.layers[0] if self.cap is None else self.cap
+        return min(*self.layers, cap), max(*self.layers, cap)
 
 
 class _Solid(Record):
-    """What fills a layer: a link, or rings about a dowel; by the number of the link on which it stands."""
+    """What fills layers: a link, rings about a dowel or its cap; by the number of the link on which it stands."""
 
     name: str
     number: str
@@ -134,11 +151,15 @@ class _Making(Making):
         self.dowels: list[_Dowel] = []
         # rings by name, with the link on whose dowel they lie, and their layer
         self.rings: list[tuple[str, str, int]] = []
+        # caps alike
+        self.caps: list[tuple[str, str, int]] = []
         self.guides: list[tuple[complex, complex]] = []
         self._first()
         self._second()
         self._check_walls()
+        self.moving = self._moving()
         self._check_room()
+        self.dowels = [*self._capped()]
 
     def _link(self, name: str, member: str, number: str, layer: int, label: str, *ends: complex) -> _Link:
         link = _Link(member, number, layer, label, [0j, *ends], [])
@@ -147,13 +168,15 @@ class _Making(Making):
 
     def _turning(self, link: _Link, pivot: complex, number: int, key: str) -> None:
         """A link on an axle of its own."""
+        top = link.layer
         link.holes.append((0j, self.axle_size + self.keys.clearance, key))
-        self.dowels.append(_Dowel(f"axle_{number}", "0", pivot, (0, link.layer), key, "spacer"))
+        self.dowels.append(_Dowel(f"axle_{number}", "0", pivot, self.axle_size, (0, top), key, "spacer", top + 1))
 
     def _joint(self, name: str, link: str, at: complex, layers: tuple[int, int], key: str, rings: str = "") -> None:
-        """A pin glued into a link."""
+        """A pin glued into a link; one with rings goes down to the frame, others up to the next link."""
         self.links[link].holes.append((at, self.pin_size, key))
-        self.dowels.append(_Dowel(f"pin_{name}", link, at, layers, key, rings))
+        cap = layers[0] - 1 if rings else layers[1] + 1
+        self.dowels.append(_Dowel(f"pin_{name}", link, at, self.pin_size, layers, key, rings, cap))
 
     def _slider(self, name: str, link: str, at: complex, layer: int, key: str, guide: Slider) -> None:
         """A pin that runs in a slot of the frame, and that slot."""
@@ -170,7 +193,11 @@ class _Making(Making):
 
         levers, first, loose = self.levers, self.levers.first, self.pin_size + self.keys.clearance
         crank = self._link("crank", "", "1", 1, f"O1A {levers.crank:.6g}", levers.crank)
-        self._turning(crank, 0j, 1, "mechanism.crank_length")
+        if self.keys.hand_crank:
+            crank.holes.append((0j, self.axle_size, "mechanism.crank_length"))
+            self.dowels.append(_Dowel("axle_1", "crank", 0j, self.axle_size, (-1, 1), "mechanism.crank_length"))
+        else:
+            self._turning(crank, 0j, 1, "mechanism.crank_length")
         self._joint("a", "crank", levers.crank, (1, 2), "mechanism.crank_length")
         if isinstance(first, Rods | Slider):
             rod = self._link("rod", "rod", "2", 2, f"AB {first.rod:.6g}", first.rod)
@@ -201,8 +228,7 @@ class _Making(Making):
         given = "lever_length" if self.mechanism.arm_length is None else "arm_length"
         if lever.slot is None and abs(levers.arm - levers.lever) < _SAME:
             # one pin through both rods and the lever between
-            joint = self.dowels[-2]
-            self.dowels[-2] = _Dowel(joint.name, joint.link, joint.at, (2, top), joint.key)
+            self.dowels[-2] = replace(self.dowels[-2], layers=(2, top), cap=top + 1)
         else:
             lever.ends.append(levers.arm)
             lever.label += f" O3C {abs(levers.arm):.6g}"
@@ -261,35 +287,57 @@ class _Making(Making):
         """All that moves or stands above the frame, layer by layer."""
         for name, link in self.links.items():
             yield _Solid(name, link.number, range(link.layer, link.layer + 1), link.ends, self.keys.link_width / 2)
+        if self.keys.hand_crank:
+            yield _Solid("hand_crank", "1", range(-1, 0), [0j, complex(self._reach)], self.keys.link_width / 2)
         for dowel in self.dowels:
             if dowel.rings:
-                number = "0" if dowel.link == "0" else self.links[dowel.link].number
-                layers = range(1, dowel.layers[1])
-                yield _Solid(dowel.rings, number, layers, [dowel.at], self._ring(dowel) / 2, dowel.key)
+                yield self._about(dowel, dowel.rings, range(1, dowel.layers[1]))
 
-    def _ring(self, dowel: _Dowel) -> float:
-        """Diameter of the rings about a dowel, mm."""
-        return self._size(dowel) + 2 * _RING
+    @property
+    def _reach(self) -> float:
+        """Length of the hand crank, mm."""
+        return _REACH * self.keys.link_width
 
-    def _size(self, dowel: _Dowel) -> float:
-        """Its diameter, mm."""
-        return self.axle_size if dowel.link == "0" else self.pin_size
+    def _about(self, dowel: _Dowel, name: str, layers: range) -> _Solid:
+        """Rings about a dowel, or its cap."""
+        number = "0" if dowel.link == "0" else self.links[dowel.link].number
+        return _Solid(name, number, layers, [dowel.at], dowel.size / 2 + _RING, dowel.key)
 
-    def _check_room(self) -> None:
-        """Nothing meets in a layer, wherever the crank stands."""
+    def _capped(self) -> Iterator[_Dowel]:
+        """The dowels, with the caps that meet nothing."""
+        taken = [*self._solids()]
+        for dowel in self.dowels:
+            if dowel.cap is None:
+                yield dowel
+                continue
+            cap = self._about(dowel, "cap", range(dowel.cap, dowel.cap + 1))
+            if self.keys.caps and all(self._apart(cap, other) >= _APART for other in taken):
+                taken.append(cap)
+                yield dowel
+            else:
+                yield replace(dowel, cap=None)
+
+    def _moving(self) -> dict[str, tuple[Complex, Complex]]:
+        """Origin and direction of each link by its number, all the way round."""
         from geometry.kinematics.kinetostatics import frames
 
         turn = 2 * math.pi * np.arange(_SAMPLES) / _SAMPLES
         moving = {key: (one.origin[0], one.way[0]) for key, one in frames(self.levers, self.levers.moved(turn)).items()}
-        moving["0"] = np.zeros(_SAMPLES, complex), np.ones(_SAMPLES, complex)
+        return moving | {"0": (np.zeros(_SAMPLES, complex), np.ones(_SAMPLES, complex))}
+
+    def _apart(self, one: _Solid, other: _Solid) -> float:
+        """How far what fills layers stays from another, mm; one of both is round."""
+        if not range(max(one.layers.start, other.layers.start), min(one.layers.stop, other.layers.stop)):
+            return math.inf
+        low, high = sorted((one, other), key=lambda solid: len(solid.ends))
+        (at, *_), corners = ([self.moving[solid.number][0] + end * self.moving[solid.number][1] for end in solid.ends]
+                             for solid in (low, high))  # fmt: skip
+        return float(_off_hull(at, corners).min()) - one.radius - other.radius
+
+    def _check_room(self) -> None:
+        """Nothing meets in a layer, wherever the crank stands."""
         for one, other in combinations(self._solids(), 2):
-            if not range(max(one.layers.start, other.layers.start), min(one.layers.stop, other.layers.stop)):
-                continue
-            # a layer has one link, which stands before all rings
-            places = [[moving[solid.number][0] + end * moving[solid.number][1] for end in solid.ends]
-                      for solid in (one, other)]  # fmt: skip
-            apart = float(_off_hull(places[1][0], places[0]).min()) - one.radius - other.radius
-            if apart < _APART:
+            if self._apart(one, other) < _APART:
                 names = [key for key in (other.key, one.key) if key]
                 raise self._refused("links_meet", [*names, "link_width"], one=one.name, other=other.name, least=_APART)
 
@@ -302,15 +350,24 @@ class _Making(Making):
         for ring, size in (("spacer", self.axle_size), ("washer", self.pin_size)):
             if any(dowel.rings == ring and dowel.layers[1] > 1 for dowel in self.dowels):
                 self.plate(ring, size + 2 * _RING, [hole(0j, size + keys.clearance)], label=False)
+        for cap, size in (("axle_cap", self.axle_size), ("pin_cap", self.pin_size)):
+            if any(_cap_of(dowel) == cap for dowel in self.dowels):
+                self.plate(cap, size + 2 * _RING, [hole(0j, size)], label=False)
         for dowel in self.dowels:
-            low, high = dowel.layers
-            self.pin(dowel.name, self._size(dowel), round((high - low + 1) * thick - _SHORT, 6))
+            low, high = dowel.capped
+            self.pin(dowel.name, dowel.size, round((high - low + 1) * thick - _SHORT, 6))
         # what stands in the frame comes first: drawings cut through its axles
         self._stand_all("spacer", [dowel for dowel in self.dowels if dowel.link == "0"])
         self.put("coaxial", "frame", "crank", height=thick, rotation_deg=self.start)
         for name, link in [*self.links.items()][1:]:
             self.put("lever_member", "crank", name, member=link.member, height=(link.layer - 1) * thick)
         self._stand_all("washer", [dowel for dowel in self.dowels if dowel.link != "0"])
+        capped = [dowel for dowel in self.dowels if dowel.cap is not None]
+        for k, dowel in enumerate(capped, 1):
+            self._stand(dowel, f"cap_{k}", dowel.cap or 0, _cap_of(dowel))
+            self.caps.append((f"cap_{k}", dowel.link, dowel.cap or 0))
+        if keys.hand_crank:
+            self._hand_crank()
         self._order()
         self.drive(keys, crank="turns")
         self.name_all()
@@ -319,14 +376,22 @@ class _Making(Making):
     def _stand_all(self, ring: str, dowels: Sequence[_Dowel]) -> None:
         """Dowels in what holds them, and rings about them below their upper layer."""
         for dowel in dowels:
-            self._stand(dowel, dowel.name, dowel.layers[0])
+            self._stand(dowel, dowel.name, dowel.capped[0])
         rings = [(one, layer) for one in dowels if one.rings for layer in range(1, one.layers[1])]
         for k, (dowel, layer) in enumerate(rings, 1):
             self._stand(dowel, f"{ring}_{k}", layer, ring)
             self.rings.append((f"{ring}_{k}", dowel.link, layer))
 
+    def _hand_crank(self) -> None:
+        """Behind the frame, with its handle."""
+        width, reach, thick = self.keys.link_width, self._reach, self.thickness
+        self.crank("hand_crank", reach, (self.axle_size, self.axle_size), (width, width))
+        self.pin("handle", self.axle_size, thick + _GRIP)
+        self.fix("crank", "hand_crank", 0j, -2 * thick)
+        self.fix("crank", "handle", complex(reach), -2 * thick - _GRIP)
+
     def _order(self) -> None:
-        """The order of assembly: each link with its pins and their rings, layer by layer down to the frame."""
+        """The order of assembly: each link with its pins, rings and caps, layer by layer down to the frame."""
 
         def step(name: str, to: str, way: str) -> None:
             self.found.steps.append({"bring": [name], "to": to, "along": list(WAYS[way])})
@@ -343,6 +408,14 @@ class _Making(Making):
                 if on == "0" and layer == link.layer:
                     step(ring, "frame", "front")
             step(name, "frame", "front")
+            if name == "crank" and self.keys.hand_crank:
+                step("hand_crank", "crank", "behind")
+                step("handle", "crank", "behind")
+            for cap, on, layer in self.caps:
+                if layer == link.layer + 1:
+                    step(cap, "frame" if on == "0" else on, "front")
+                elif layer < 0 and on == name:
+                    step(cap, on, "behind")
 
     def _stand(self, dowel: _Dowel, name: str, layer: int, part: str = "") -> None:
         """Fix a dowel, or a ring about it, with its lower face in a layer, 0 that of the frame."""
@@ -354,8 +427,10 @@ class _Making(Making):
     def _frame(self) -> None:
         """A rectangle about all axles and slots."""
         wide = self.pin_size + self.keys.clearance
-        axles = [dowel.at for dowel in self.dowels if dowel.link == "0"]
-        about = [(at, self.axle_size / 2) for at in axles]
+        fast = [(dowel.at, self.axle_size) for dowel in self.dowels if dowel.link == "0"]
+        loose = [(0j, self.axle_size + self.keys.clearance)] if self.keys.hand_crank else []
+        axles = loose + fast
+        about = [(at, self.axle_size / 2) for at, _ in axles]
         about += [(end, wide / 2) for first, last in self.guides for end in (first, last)]
         reach = [(at.real + sign * (half + _BESIDE), at.imag + sign * (half + _BESIDE)) for at, half in about
                  for sign in (-1, 1)]  # fmt: skip
@@ -370,7 +445,7 @@ class _Making(Making):
         self.part(
             "frame", kind="plate", face_width=self.thickness, width=float(right - left), height=float(high - low),
             centre=[(left + right) / 2, (low + high) / 2], corner_radius=_CORNER,
-            holes=[hole(at, self.axle_size) for at in axles], slots=slots, **label,
+            holes=[hole(at, size) for at, size in axles], slots=slots, **label,
         )  # fmt: skip
         self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -self.thickness], "held": True}
 
@@ -398,6 +473,11 @@ class _Making(Making):
             layer = {"thickness": self.thickness, "outlines": [{"points": _rounded(corners, width / 2)}],
                      "circles": circles, "slots": slots}  # fmt: skip
             self.part(name, kind="layered", layers=[layer], label=link.label)
+
+
+def _cap_of(dowel: _Dowel) -> str:
+    """The part that is its cap."""
+    return "" if dowel.cap is None else "axle_cap" if dowel.link == "0" else "pin_cap"
 
 
 def _from_pivot(one: tuple[complex, float, str]) -> float:

@@ -31,6 +31,7 @@ FREE = {
     "power_table_print": [*(f"foot_{k} ends at -62" for k in (1, 2, 3, 4)), "shaft ends at -42"],
     "lesson_2": ["handle ends at 35"], "lesson_4": ["axle ends at 9", "guide_pin_1 ends at 9", "guide_pin_2 ends at 9"],
     "lesson_5": ["axle ends at 9", "roller_pin ends at 1"], "james_laser": ["handle ends at 38"],
+    "six_link_model": ["handle ends at -26"],
 }  # fmt: skip
 SCENES = ("power_table_laser", "power_table_print", "compound_two_stage", "ferguson", "lesson_2", "lesson_4",
           "lesson_5", "six_link_model", "david", "practicum_example_1", "james", "james_laser")  # fmt: skip
