@@ -192,6 +192,10 @@ def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
     except ParameterError as refusal:
         raise LateError(refusal.code, partial(_blamed, gear, helix_angle, refusal)) from refusal
     section.holes.check(section.root_radius)
+    if section.sector is not None:
+        from geometry.gears.teeth.sector_rim import check_gear_sector
+
+        check_gear_sector(section)
     return section
 
 

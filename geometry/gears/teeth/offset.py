@@ -23,7 +23,7 @@ from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
 from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, kept_from, with_corner_arcs
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
+from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.hub_holes import Holed
@@ -46,10 +46,26 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     """
 
     def section(by: float) -> OffsetRegion:
-        side = _moved_side(gear, by)
-        return OffsetRegion(Region(side.profile(), gear.holes.profiles(by)), by, side.findings)
+        outline, found = moved_outline(gear, by)
+        return OffsetRegion(Region(outline, gear.holes.profiles(by)), by, found)
 
     return moved_teeth(section, offset)
+
+
+def moved_outline(gear: SpurGear, by: float) -> tuple[Profile, tuple[Finding, ...]]:
+    """The outline moved ``by`` mm out of the material, and what was noticed."""
+    side = _moved_side(gear, by, gear.pitch_angle)
+    if gear.sector is None:
+        return side.profile(), side.findings
+    from geometry.gears.teeth.sector_rim import core_plate, sector_profile
+
+    within = gear.holes.bore_reach if gear.sector.is_cut else gear.holes.reach
+    if by < 0 and (gear.core_radius + by <= within - by or (gear.sector.is_cut and not core_plate(gear).exists(by))):
+        raise OffsetError(by, "leaves_no_rim")
+    # nothing stands beyond the outer space of an outer tooth
+    end = _moved_side(gear, by, 2 * gear.pitch_angle)
+    found = (*side.findings, *(f for f in end.findings if f not in side.findings))
+    return sector_profile(gear, side, end, by), found
 
 
 def toothed_region(side: Callable[[W, float], ToothSide], wheel: W, offset: float = 0.0) -> OffsetRegion:
@@ -80,7 +96,14 @@ def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float
     curves = SideCurves.of(gear).shrunk(inset)
     shrinking = min(1.0, (1 - KEPT_ROUNDING) * curves.tip_rounding / deepest)
     rounding = curves.tip_rounding - shrinking * depth
-    made = assemble_side(replace(curves.shrunk(depth), tip_rounding=rounding), gear.pitch_angle).profile()
+    moved = replace(curves.shrunk(depth), tip_rounding=rounding)
+    side = assemble_side(moved, gear.pitch_angle)
+    if gear.sector is None:
+        made = side.profile()
+    else:
+        from geometry.gears.teeth.sector_rim import sector_profile
+
+        made = sector_profile(gear, side, assemble_side(moved, 2 * gear.pitch_angle), -inset - depth)
     if shrinking == 1.0 or rounding == 0.0:
         return made
     # the centre of its arc moves with the depth: its face is no cone, and curves of any kind are followed by splines
@@ -88,17 +111,17 @@ def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float
         Segment(Reversed(s.curve.reversed()), s.label) if isinstance(s.curve, Arc) and s.label is Label.TIP_BREAK else s
         for s in made.period
     )
-    return Profile(tuple(period), made.count)
+    return replace(made, period=tuple(period))
 
 
-def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
-    if offset == 0:
-        return tooth_side(gear)
-    if offset < 0:
-        if gear.root_radius + offset <= gear.holes.reach - offset:
-            raise OffsetError(offset, "leaves_no_rim")
-        return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
-    return grown_side(tooth_side(gear), offset)
+def _moved_side(gear: SpurGear, offset: float, pitch_angle: float) -> ToothSide:
+    """The side of a tooth whose neighbour stands so far off, rad, moved."""
+    whole = assemble_side(SideCurves.of(gear), pitch_angle) if offset >= 0 else None
+    if whole is not None:
+        return whole if offset == 0 else grown_side(whole, offset)
+    if gear.root_radius + offset <= gear.holes.reach - offset:
+        raise OffsetError(offset, "leaves_no_rim")
+    return assemble_side(SideCurves.of(gear).shrunk(-offset), pitch_angle, blunt=True)
 
 
 def grown_side(side: ToothSide, distance: float) -> ToothSide:

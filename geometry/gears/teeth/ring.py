@@ -16,6 +16,7 @@ from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
 from geometry.gears.teeth.cutter import PinionCutter, cut_fillet, cutting_angle
 from geometry.gears.teeth.involute_teeth import InvoluteTeeth
+from geometry.gears.teeth.sector import Sector
 from geometry.solids.hub_holes import HubHoles
 
 
@@ -41,7 +42,8 @@ class RingGear(InvoluteTeeth, dict=True):
     feeding the cutter out (root diameter raised).
     ``any_cutter``: nobody named the cutter, so that another may be taken (``ring_made.settled_ring``), and
     ``least_tip_diameter``: the default tip is made no deeper than that (0: as deep as it likes).
-    ``holes``: round holes in the rim, like a bolt circle. Source of the dimensions: GOST 19274, ISO 21771.
+    ``holes``: round holes in the rim, like a bolt circle. A ``sector`` tells which teeth of all are kept.
+    Source of the dimensions: GOST 19274, ISO 21771.
     """
 
     pressure_angle: float
@@ -58,6 +60,7 @@ class RingGear(InvoluteTeeth, dict=True):
     any_cutter: bool = False
     holes: HubHoles = _NO_HOLES
     least_tip_diameter: float = 0.0
+    sector: Sector | None = None
 
     @property
     def sign(self) -> int:
@@ -101,6 +104,11 @@ class RingGear(InvoluteTeeth, dict=True):
         """k_2 of GOST 19274, in modules; 0 with ``plain_tip``."""
         x = self.profile_shift_coefficient
         return 0.0 if self.plain_tip or x >= 2 else 0.25 - 0.125 * x
+
+    @property
+    def core_radius(self) -> float:
+        """Of the least circle about the axis without the toothed boundary, mm: the root circle, or a sector's blank."""
+        return self.root_radius if self.sector is None else self.sector.core_radius(self.root_radius)
 
     @property
     def outer_radius(self) -> float:

@@ -92,6 +92,10 @@ def checked_ring(gear: RingGear, normal: RingGear | None = None, helix_angle: fl
         check_made(gear)
     except ParameterError as refusal:
         raise LateError(refusal.code, partial(_blamed, normal or gear, helix_angle, refusal)) from refusal
+    if gear.sector is not None:
+        from geometry.gears.teeth.sector_rim import check_sector
+
+        check_sector(gear)
     check_rim(gear)
     return gear
 
@@ -99,7 +103,7 @@ def checked_ring(gear: RingGear, normal: RingGear | None = None, helix_angle: fl
 def check_rim(gear: RingGear) -> None:
     """Refuse a rim without material, or holes in it that leave none."""
     _check_numbers(gear)
-    least = 2 * gear.root_radius
+    least = 2 * gear.core_radius
     if gear.outer_diameter <= least:
         raise ParameterError.beyond("outer_diameter", gear.outer_diameter, "leaves_no_rim", least + _LEAST_RIM)
     gear.holes.check(math.inf)
@@ -114,8 +118,8 @@ def rim_walls(gear: RingGear) -> list[Wall]:
     for key, group in gear.holes.groups():
         size, radius = group.pitch_circle_diameter, group.diameter / 2
         blamed_size = f"{key}.pitch_circle_diameter", size
-        inner, outer = size / 2 - radius - gear.root_radius, gear.outer_radius - size / 2 - radius
-        walls.append(Wall(inner, *blamed_size, "holes_reach_root_circle", {"diameter": 2 * gear.root_radius}))
+        inner, outer = size / 2 - radius - gear.core_radius, gear.outer_radius - size / 2 - radius
+        walls.append(Wall(inner, *blamed_size, "holes_reach_root_circle", {"diameter": 2 * gear.core_radius}))
         walls.append(Wall(outer, *blamed_size, "holes_reach_outside", {"diameter": gear.outer_diameter}))
     return walls
 

@@ -46,7 +46,12 @@ def _section(gear: RingGear, offset: float) -> OffsetRegion:
     if -2 * offset >= thinnest:
         raise OffsetError(offset, "no_wall_beside_holes")
     outer = circle(gear.outer_radius + offset, Label.RIM)
-    return OffsetRegion(Region(outer, (side.profile(), *gear.holes.profiles(offset))), offset, side.findings)
+    toothed = side.profile()
+    if gear.sector is not None:
+        from geometry.gears.teeth.sector_rim import sector_profile
+
+        toothed = sector_profile(gear, side, side, offset)
+    return OffsetRegion(Region(outer, (toothed, *gear.holes.profiles(offset))), offset, side.findings)
 
 
 def _moved_side(gear: RingGear, offset: float) -> RingSide:
@@ -54,7 +59,7 @@ def _moved_side(gear: RingGear, offset: float) -> RingSide:
     if offset == 0:
         return ring_side(gear)
     if offset < 0:
-        if gear.root_radius - offset >= gear.outer_radius + offset:
+        if gear.core_radius - offset >= gear.outer_radius + offset:
             raise OffsetError(offset, "leaves_no_rim")
         return assemble_ring_side(RingCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
     return grown_ring_side(ring_side(gear), offset)

@@ -28,8 +28,8 @@ class Side(Record):
         root = side.pop(0) if side[0].label is Label.ROOT_LAND else None
         tip = side.pop() if side[-1].label is Label.TIP_LAND else None
         mirrored = [Segment(s.curve.mirrored(), s.label) for s in reversed(side)]
-        tips = [] if tip is None else [_whole(tip, -self.pitch_angle / 2 if self.clockwise else 0.0, way)]
-        roots = [] if root is None else [_whole(root, 0.0 if self.clockwise else self.pitch_angle / 2, way)]
+        tips = [] if tip is None else [whole_land(tip, -self.pitch_angle / 2 if self.clockwise else 0.0, way)]
+        roots = [] if root is None else [whole_land(root, 0.0 if self.clockwise else self.pitch_angle / 2, way)]
         period = [*mirrored, *roots, *side, *tips] if self.clockwise else [*side, *tips, *mirrored, *roots]
         return Profile(tuple(period), round(2 * math.pi / self.pitch_angle), self.clockwise)
 
@@ -44,7 +44,7 @@ class Side(Record):
         return abs(start_point(curves[0])), abs(end_point(curves[-1]))
 
 
-def _whole(land: Segment, middle: float, way: int) -> Segment:
+def whole_land(land: Segment, middle: float, way: int) -> Segment:
     """A half land about the axis made whole: as long on either side of the polar angle ``middle``."""
     low, high = land.curve.domain
     half = way * (high - low)

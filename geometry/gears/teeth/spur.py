@@ -12,6 +12,7 @@ from geometry.curves.involute import Involute
 from geometry.curves.trochoid import RackFillet, TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.involute_teeth import InvoluteTeeth
+from geometry.gears.teeth.sector import Sector
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
 
@@ -28,7 +29,7 @@ class SpurGear(InvoluteTeeth, dict=True):
     ``circumferential_thinning`` thins each tooth at the reference circle: cut by a wider rack tooth (root
     diameter kept) or, with ``thinning_by_deeper_cut``, by feeding the rack in (root diameter lowered).
     With a ``cutter`` it is cut by that pinion cutter: the rack then only gives pressure angle and addendum, and the
-    root diameter follows from the cutter's centre distance.
+    root diameter follows from the cutter's centre distance. A ``sector`` tells which teeth of all are kept.
     Source of the dimensions: ISO 21771, GOST 16532, practicum (3.7) to (3.17).
     """
 
@@ -42,6 +43,7 @@ class SpurGear(InvoluteTeeth, dict=True):
     bore_diameter: float = 0.0
     hub: HubHoles = _NO_HOLES
     cutter: PinionCutter | None = None
+    sector: Sector | None = None
 
     @property
     def pressure_angle(self) -> float:
@@ -94,6 +96,11 @@ class SpurGear(InvoluteTeeth, dict=True):
         if self.cutter is not None:
             return self.generating_distance - self.cutter.tip_radius
         return self.reference_radius - (self.rack.dedendum - self.generating_shift_coefficient) * self.module
+
+    @property
+    def core_radius(self) -> float:
+        """Of the largest circle about the axis within the outline, mm: the root circle, but for a sector's rest."""
+        return self.root_radius if self.sector is None else self.sector.core_radius(self.root_radius)
 
     @property
     def tip_radius(self) -> float:

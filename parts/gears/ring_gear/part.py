@@ -21,6 +21,7 @@ from parts.keys.helix import (
     told_in_keys,
 )
 from parts.keys.holes import HolesTable, PitchCircle, hub_holes, with_remedy
+from parts.keys.sector import SectorTable, sector_of
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -78,6 +79,7 @@ class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     holes: RimHolesTable | list[RimHolesTable] | None = None
     tooth_mark: ToothMarkTable | None = None
+    sector: SectorTable | None = None
 
 
 @told_in_keys
@@ -113,7 +115,7 @@ def _marks(keys: RingGearSpec, gear: RingGear) -> Marks:
     for group in gear.holes.round_holes:
         if any(abs(c.imag) < group.diameter and c.real > 0 for c in group.centres()):
             outer = min(outer, (group.pitch_circle_diameter - group.diameter) / 2)
-    return tooth_mark(keys.tooth_mark, gear.number_of_teeth, (gear.root_radius, outer), keys.face_width, inside=True)
+    return tooth_mark(keys.tooth_mark, gear.number_of_teeth, (gear.core_radius, outer), keys.face_width, inside=True)
 
 
 @told_in_keys
@@ -138,7 +140,7 @@ def _with_rim(keys: RingGearSpec, gear: RingGear) -> RingGear:
     if keys.outer_diameter is not None:
         return gear
     # holes keep a module to the outside
-    radius = max(gear.root_radius + _RIM * keys.module, *(g.reach + keys.module for g in gear.holes.round_holes), 0.0)
+    radius = max(gear.core_radius + _RIM * keys.module, *(g.reach + keys.module for g in gear.holes.round_holes), 0.0)
     return replace(gear, outer_diameter=2 * radius)
 
 
@@ -173,6 +175,7 @@ def _ring_of(keys: RingGearSpec) -> RingGear:
         tip_rounding=keys.tip_rounding,
         any_cutter=keys.cutter is None and isinstance(root, PinionCutter),
         holes=hub_holes(None, keys.holes, None),
+        sector=sector_of(keys.sector, -1),
     )
 
 

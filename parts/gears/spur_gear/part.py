@@ -22,9 +22,10 @@ from geometry.gears.teeth.basic_rack import (
     iso_53,
 )
 from geometry.gears.teeth.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
-from geometry.gears.teeth.offset import KEPT_ROUNDING, chamfered_outline, gear_region
+from geometry.gears.teeth.offset import KEPT_ROUNDING, chamfered_outline, gear_region, moved_outline
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
+from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
@@ -42,6 +43,7 @@ from parts.keys.helix import (
     told_in_keys,
 )
 from parts.keys.holes import BoreTable, HolesTable, SpokesTable, bore_of, hub_holes, spoked, with_remedy
+from parts.keys.sector import GearSectorTable, sector_of
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, shape_of
 
 if TYPE_CHECKING:
@@ -99,6 +101,7 @@ class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     tooth_mark: ToothMarkTable | None = None
+    sector: GearSectorTable | None = None
 
 
 @told_in_keys
@@ -119,7 +122,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
     try:
         gear = checked_gear(gear_of(keys), helix.angle)
         _check_face_chamfer(keys, gear)
-        check_wheel(shape_of(keys), 2 * gear.root_radius, gear.holes)
+        check_wheel(shape_of(keys), 2 * gear.core_radius, _about_axis(gear))
     except ParameterError as refusal:
         whole = LateError(refusal.code, partial(_whole, keys, refusal))
         raise with_remedy(whole, keys, holes_fit) from refusal
@@ -127,12 +130,18 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
     return gear
 
 
+def _about_axis(gear: SpurGear) -> HubHoles:
+    """The holes within the largest circle about the axis: of a cut sector, whose others stand beyond, the bore."""
+    cut = gear.sector is not None and gear.sector.is_cut
+    return HubHoles(gear.holes.bore) if cut else gear.holes
+
+
 def _marks(keys: SpurGearSpec, gear: SpurGear) -> Marks:
     """What is engraved between the root circle and all that is within it."""
     shape = shape_of(keys)
     hub = 0.0 if shape.hub is None else shape.hub.diameter / 2
-    inner = max(gear.holes.reach, hub, 0.0 if shape.web is None else shape.web.rim_diameter / 2)
-    room = inner + shape.chamfer_above, gear.root_radius - shape.chamfer_above
+    inner = max(_about_axis(gear).reach, hub, 0.0 if shape.web is None else shape.web.rim_diameter / 2)
+    room = inner + shape.chamfer_above, gear.core_radius - shape.chamfer_above
     return tooth_mark(keys.tooth_mark, gear.number_of_teeth, room, keys.face_width)
 
 
@@ -180,17 +189,16 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
         """The wheel with its web, hub and chamfers."""
         from geometry.solids.engraving import engraved
 
-        section = lru_cache(maxsize=8)(partial(gear_region, thing))
-
         shape = replace(shape_of(keys), twist=helix_of(keys).twist(thing.reference_radius))
         deepest = max(shape.chamfer_below, shape.chamfer_above)
 
         def outline(moved: float, depth: float) -> Profile:
             if depth == 0 and (moved > 0 or deepest == 0):
-                return section(moved).region.outer
+                return moved_outline(thing, moved)[0]
             return chamfered_outline(thing, -moved, depth, max(deepest, depth))
 
-        body = wheel_body(shape, wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        sections = wheel_sections(lru_cache(maxsize=8)(outline), thing.core_radius, thing.holes)
+        body = wheel_body(shape, replace(sections, core=_about_axis(thing)), offset)
         return engraved(body, _marks(keys, thing), keys.face_width)
 
     def sketch(self, keys: SpurGearSpec, thing: SpurGear) -> Sketch:
@@ -260,10 +268,16 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
         hub=hub_holes(keys.bore, keys.holes, keys.spokes),
         cutter=cutter,
     )
+    if keys.sector is not None:
+        root = transverse_gear(gear, helix.angle).root_radius
+        gear = replace(gear, sector=sector_of(keys.sector, 1, root, gear.bore_radius))
+        for key in ("web", "spokes") if keys.sector.rest == "cut" else ():
+            if getattr(keys, key) is not None:
+                raise ParameterError(key, None, "not_of_cut_sector", Nearest(None))
     if keys.spokes is None or gear.hub.spokes is not None:
         return gear
-    root = transverse_gear(gear, helix.angle).root_radius
-    return replace(gear, hub=hub_holes(keys.bore, keys.holes, spoked(keys, root).spokes))
+    core = transverse_gear(gear, helix.angle).core_radius
+    return replace(gear, hub=hub_holes(keys.bore, keys.holes, spoked(keys, core).spokes))
 
 
 def _check_unused(keys: SpurGearSpec) -> None:
