@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from typing import Any
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
 
 from parts.base.lookalikes import look_alike
 from parts.base.psv import rows_of
@@ -84,7 +85,25 @@ def _as_typed(what: str) -> str:
     return ".".join(re.findall(r"'([^']*)'", what)) if what.startswith("(") else what
 
 
-def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
+class _Line(NamedTuple):
+    """The line at which a text is no TOML: why, as tomllib says it, its number, and the place of the error in it."""
+
+    text: str
+    why: str
+    number: int
+    line: str
+    column: int
+
+    @property
+    def rest(self) -> str:
+        """From the error on."""
+        return self.line[self.column :]
+
+
+_Slip: TypeAlias = tuple[str, dict[str, Any]] | None
+
+
+def slip(text: str, why: str) -> _Slip:
     """What people type who know no TOML, on the line that is none: its code and what the sentence of that needs."""
     # Python's own words of a whole number that it does not read
     if digits := re.search(r"limit \((\d+) digits\).* has (\d+) digits", why):
@@ -96,87 +115,152 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         rows = enumerate(text.split("\n"), 1)
         opened = next(((number, found[1]) for number, row in rows if (found := _OPEN.fullmatch(row.rstrip()))), None)
         return None if opened is None else ("quote_not_closed", {"line": opened[0], "key": opened[1]})
-    number, column = int(at[1]), int(at[2]) - 1
-    line = text.split("\n")[number - 1]
-    if _YAML.match(line):
-        return "other_format", {"line": number, "format": "YAML"}
-    if why.startswith("Invalid statement") and (form := _OTHERS.get(line.strip()[:1])):
-        return "other_format", {"line": number, "format": form}
-    if hidden := next((c for c in line if unicodedata.category(c) == "Cf"), None):
-        return "hidden_character", {"line": number, "letter": f"U+{ord(hidden):04X}"}
-    if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
-        return "key_twice", {"line": number, "key": found[1]}
-    if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*\[\[([\w-]+)\]\]", line)):
-        if found[1] not in _SEVERAL:
-            return "table_twice", {"line": number, "table": found[1]}
-        rows = enumerate(text.split("\n")[: number - 1], 1)
-        first = next((n for n, row in rows if re.match(rf"\s*\[{found[1]}\]", row)), number)
-        return "single_brackets", {"line": first, "table": found[1]}
-    if why.startswith("Cannot declare") and (found := _TABLE.fullmatch(line)):
-        return "table_twice", {"line": number, "table": found[1].strip()}
-    if why.startswith("Invalid statement") and _COMMENT.match(line):
-        return "comment_of_others", {"line": number}
-    if why.startswith("Unclosed array") and line[column : column + 1] == ";":
-        return "semicolon", {"line": number}
-    if why.startswith("Expected newline") and _NEXT_KEY.match(line[column:]):
-        return "keys_in_a_row", {"line": number}
-    if (found := _HALF_HEADER.fullmatch(line)) and found[1] + found[3] and not found[2].isdigit():
+    number = int(at[1])
+    here = _Line(text, why, number, text.split("\n")[number - 1], int(at[2]) - 1)
+    code, numbers = next(filter(None, (known(here) for known in _SLIPS)), ("", {}))
+    return (code, {"line": number} | numbers) if code else None
+
+
+def _of_other_format(at: _Line) -> _Slip:
+    if _YAML.match(at.line):
+        return "other_format", {"format": "YAML"}
+    form = _OTHERS.get(at.line.strip()[:1]) if at.why.startswith("Invalid statement") else None
+    return None if form is None else ("other_format", {"format": form})
+
+
+def _hidden(at: _Line) -> _Slip:
+    hidden = next((c for c in at.line if unicodedata.category(c) == "Cf"), None)
+    return None if hidden is None else ("hidden_character", {"letter": f"U+{ord(hidden):04X}"})
+
+
+def _twice(at: _Line) -> _Slip:
+    """A key or a table that stands twice, and one that stands several times but has single brackets once."""
+    if at.why.startswith("Cannot declare") and (found := _TABLE.fullmatch(at.line)):
+        return "table_twice", {"table": found[1].strip()}
+    if not at.why.startswith("Cannot overwrite a value"):
+        return None
+    if found := re.match(r"\s*([\w.-]+)\s*=", at.line):
+        return "key_twice", {"key": found[1]}
+    if (found := re.match(r"\s*\[\[([\w-]+)\]\]", at.line)) is None:
+        return None
+    if found[1] not in _SEVERAL:
+        return "table_twice", {"table": found[1]}
+    rows = enumerate(at.text.split("\n")[: at.number - 1], 1)
+    first = next((n for n, row in rows if re.match(rf"\s*\[{found[1]}\]", row)), at.number)
+    return "single_brackets", {"line": first, "table": found[1]}
+
+
+def _of_other_language(at: _Line) -> _Slip:
+    """Comments and ends of lines as other languages have them; several keys on a line."""
+    if at.why.startswith("Invalid statement") and _COMMENT.match(at.line):
+        return "comment_of_others", {}
+    if at.why.startswith("Unclosed array") and at.rest.startswith(";"):
+        return "semicolon", {}
+    if at.why.startswith("Expected newline") and _NEXT_KEY.match(at.rest):
+        return "keys_in_a_row", {}
+    return None
+
+
+def _brackets(at: _Line) -> _Slip:
+    """Too few or too many about a header, a unit or a number."""
+    if (found := _HALF_HEADER.fullmatch(at.line)) and found[1] + found[3] and not found[2].isdigit():
         header = f"[[{found[2]}]]" if found[2] in _SEVERAL else f"[{found[2]}]"
-        if header != line.partition("#")[0].strip():
-            return "half_header", {"line": number, "header": header}
-    if (found := _UNIT_OF_KEY.fullmatch(line) or _BRACKETED.fullmatch(line)) and look_alike(found[1]) is None:
-        return "small_letters", {"line": number, "key": found[1], "value": found[2]}
-    if (found := _NO_VALUE.fullmatch(line)) and look_alike(found[1]) is None:
-        return "no_value", {"line": number, "key": found[1]}
-    if why.startswith(("Invalid hex value", "Unescaped")):
-        return "backslash", {"line": number}
-    if (found := _SHARE.fullmatch(line)) and (by := float(found[4])):
+        if header != at.line.partition("#")[0].strip():
+            return "half_header", {"header": header}
+    found = _UNIT_OF_KEY.fullmatch(at.line) or _BRACKETED.fullmatch(at.line)
+    if found and look_alike(found[1]) is None:
+        return "small_letters", {"key": found[1], "value": found[2]}
+    return None
+
+
+def _no_value(at: _Line) -> _Slip:
+    found = _NO_VALUE.fullmatch(at.line)
+    return ("no_value", {"key": found[1]}) if found and look_alike(found[1]) is None else None
+
+
+def _backslash(at: _Line) -> _Slip:
+    return ("backslash", {}) if at.why.startswith(("Invalid hex value", "Unescaped")) else None
+
+
+def _calculated(at: _Line) -> _Slip:
+    if (found := _SHARE.fullmatch(at.line)) and (by := float(found[4])):
         value = f"{float(found[2]) * by if found[3] == '*' else float(found[2]) / by:.12g}"
-        return "not_calculated", {"line": number, "key": found[1], "value": value}
-    if found := _BARE_WORDS.fullmatch(line):
-        return "no_brackets", {"line": number, "key": found[1], "value": ", ".join(re.findall(r'"[^"]*"', found[2]))}
-    if (found := _QUOTES_WITHIN.fullmatch(line)) and found[2] in found[3]:
+        return "not_calculated", {"key": found[1], "value": value}
+    return None
+
+
+def _texts(at: _Line) -> _Slip:
+    """A list of texts without brackets, quotes within quotes, a key of several words."""
+    if found := _BARE_WORDS.fullmatch(at.line):
+        return "no_brackets", {"key": found[1], "value": ", ".join(re.findall(r'"[^"]*"', found[2]))}
+    if (found := _QUOTES_WITHIN.fullmatch(at.line)) and found[2] in found[3]:
         bare = found[3].strip(found[2])
         other = "\"'"[found[2] == '"'] if found[2] in bare else found[2]
         if other not in bare:
-            return "small_letters", {"line": number, "key": found[1], "value": f"{other}{bare}{other}"}
-    if why.startswith("Expected '='") and (found := _WORDS.fullmatch(line)):
-        return "small_letters", {"line": number, "key": re.sub(" +", "_", found[1]), "value": found[2]}
-    if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", line):
-        return "decimal_comma", {"line": number, "number": f"{found[1]}.{found[2]}"}
-    if why.startswith("Invalid value") and (found := _BARE.search(line)) and found.start(2) == column:
+            return "small_letters", {"key": found[1], "value": f"{other}{bare}{other}"}
+    if at.why.startswith("Expected '='") and (found := _WORDS.fullmatch(at.line)):
+        return "small_letters", {"key": re.sub(" +", "_", found[1]), "value": found[2]}
+    return None
+
+
+def _bare_values(at: _Line) -> _Slip:
+    """Decimal commas, texts without quotes, yes and no, lists without brackets."""
+    if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", at.line):
+        return "decimal_comma", {"number": f"{found[1]}.{found[2]}"}
+    if at.why.startswith("Invalid value") and (found := _BARE.search(at.line)) and found.start(2) == at.column:
         value = found[2].strip().strip(_TYPOGRAPHIC)
         said = value.lower()
         truth = "true" if said in ("true", *_YES) else "false" if said in ("false", *_NO) else None
-        return ("no_quotes" if truth is None else "small_letters"), {
-            "line": number, "key": found[1], "value": truth or value
-        }  # fmt: skip
-    if found := _BARE_LIST.fullmatch(line):
-        row = ", ".join(re.split(r"\s*[,;]\s*", found[2]))
-        return "no_brackets", {"line": number, "key": found[1], "value": row}
-    # a letter right behind a digit may be meant for one
-    if (found := _UNIT.fullmatch(line)) and found[4] == "%":
-        return "a_share", {"line": number, "key": found[1], "value": f"{float(found[2]) / 100:.12g}"}
-    if (found := _UNIT.fullmatch(line)) and look_alike(found[1] if found[3] else line) is None:
-        units = {name: float(size) for name, size in rows_of(__file__, "units")}
-        if size := units.get(found[4].lower()):
-            value = f"{float(found[2]) * size:.12g}"
-            return "number_in_other_unit", {"line": number, "key": found[1], "value": value}
-        return "number_with_unit", {"line": number, "key": found[1], "value": found[2]}
-    if (found := _ALMOST.fullmatch(line)) and look_alike(line) is None:
+        return "no_quotes" if truth is None else "small_letters", {"key": found[1], "value": truth or value}
+    if found := _BARE_LIST.fullmatch(at.line):
+        return "no_brackets", {"key": found[1], "value": ", ".join(re.split(r"\s*[,;]\s*", found[2]))}
+    return None
+
+
+def _units(at: _Line) -> _Slip:
+    """A number with its unit; a letter right behind a digit may be meant for one."""
+    if (found := _UNIT.fullmatch(at.line)) is None:
+        return None
+    key, number, apart, unit = found.groups()
+    if unit == "%":
+        return "a_share", {"key": key, "value": f"{float(number) / 100:.12g}"}
+    if look_alike(key if apart else at.line) is not None:
+        return None
+    units = {name: float(size) for name, size in rows_of(__file__, "units")}
+    if size := units.get(unit.lower()):
+        return "number_in_other_unit", {"key": key, "value": f"{float(number) * size:.12g}"}
+    return "number_with_unit", {"key": key, "value": number}
+
+
+def _almost(at: _Line) -> _Slip:
+    """A value that would be one but for a sign or two."""
+    if (found := _ALMOST.fullmatch(at.line)) and look_alike(at.line) is None:
         key, sign, whole, point, rest, other = found.groups("")
         value = other or f"{sign and ('+' if sign == '+' else '-')}{whole.lstrip('0') or 0}{point and f'.{rest or 0}'}"
-        if (other or whole or rest) and not re.match(rf"\s*{re.escape(key)} *= *{re.escape(value)}\s*(#|$)", line):
-            return "small_letters", {"line": number, "key": key, "value": value}
-    if why.startswith("Expected '='") and line[column:].lstrip().startswith(":"):
-        return "colon", {"line": number}
-    if (found := _NOT_LATIN.match(line)) and found.end(1) > column and look_alike(found[1]) is None:
-        return "key_not_latin", {"line": number, "key": found[1]}
-    if (found := _TABLE.fullmatch(line)) and look_alike(found[1]) is None:
+        if (other or whole or rest) and not re.match(rf"\s*{re.escape(key)} *= *{re.escape(value)}\s*(#|$)", at.line):
+            return "small_letters", {"key": key, "value": value}
+    return ("colon", {}) if at.why.startswith("Expected '='") and at.rest.lstrip().startswith(":") else None
+
+
+def _not_latin(at: _Line) -> _Slip:
+    """A key, or a name in a header, in other letters."""
+    if (found := _NOT_LATIN.match(at.line)) and found.end(1) > at.column and look_alike(found[1]) is None:
+        return "key_not_latin", {"key": found[1]}
+    if (found := _TABLE.fullmatch(at.line)) and look_alike(found[1]) is None:
         wrong = next((name.strip() for name in found[1].split(".") if not _NAME.fullmatch(name)), None)
-        return None if wrong is None else ("name_not_latin", {"line": number, "name": wrong})
-    if found := _OPEN.fullmatch(line.rstrip()):
-        return "quote_not_closed", {"line": number, "key": found[1]}
-    if line[column : column + 1] == "\u00a0":
-        return "hidden_character", {"line": number, "letter": "U+00A0"}
+        return None if wrong is None else ("name_not_latin", {"name": wrong})
     return None
+
+
+def _left(at: _Line) -> _Slip:
+    """Quotes that nothing closes, and a blank that is none."""
+    if found := _OPEN.fullmatch(at.line.rstrip()):
+        return "quote_not_closed", {"key": found[1]}
+    return ("hidden_character", {"letter": "U+00A0"}) if at.rest.startswith("\u00a0") else None
+
+
+# what a line may have, that which leads to the plainest remedy first
+_SLIPS: tuple[Callable[[_Line], _Slip], ...] = (
+    _of_other_format, _hidden, _twice, _of_other_language, _brackets, _no_value, _backslash, _calculated, _texts,
+    _bare_values, _units, _almost, _not_latin, _left,
+)  # fmt: skip

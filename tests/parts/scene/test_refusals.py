@@ -609,6 +609,7 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("// a cam", "line 2: a comment begins with #"),
         ("; a cam", "line 2: a comment begins with #"),
         ("\u00a0module = 2.0", "line 2: has a character that nobody sees (U+00A0)"),
+        ("\u00a0[scene]", "line 2: has a character that nobody sees (U+00A0)"),
         ("lift = 30,5", "line 2: a number has a comma; write 30.5 with a point"),
         ("lift = .5", "line 2: write lift = 0.5"),
         ("lift = -2.  # down", "line 2: write lift = -2.0"),
