@@ -95,4 +95,4 @@ def _way(step: StepSpec) -> Message:
         way = message("{way}, each through the hole of the first, the row turned on", way=way)
     if step.opened is not None:
         way = message("{way}, opened by {wider:.4g} mm", way=way, wider=step.opened)
-    return message("{way}, turned in by its thread", way=way) if step.screwed else way
+    return message("{way}, turned in along its thread or teeth", way=way) if step.screwed else way

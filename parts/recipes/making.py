@@ -161,14 +161,24 @@ class Making:
         self.found.mates.append({"kind": kind, "first": first, "second": second, **keys})
 
     def order(self, choice: str, **ways: Table) -> None:
-        """The order of assembly in ``orders.psv``, for a choice of the recipe; ``ways``: what is said of its steps."""
+        """The order of assembly in ``orders.psv``, for a choice of the recipe; ``ways``: what is said of its steps.
+
+        What there is none of is left out.
+        """
         for recipe, choices, to, steps, how in _ORDERS:
-            if recipe != self.recipe or (choices and choice not in choices.split()):
+            if recipe != self.recipe or (choices and choice not in choices.split()) or not self._all_of(to):
                 continue
             for way, things in (part.split(maxsplit=1) for part in steps.split(";")):
                 along = {"along": list(WAYS[way])} if way in WAYS else {}
                 more = along | ways.get(how, {how: True} if how else {})
-                self.found.steps += [{"bring": one.split(), "to": to, **more} for one in things.split(",")]
+                brought = ([key for name in one.split() for key in self._all_of(name)] for one in things.split(","))
+                self.found.steps += [{"bring": bring, "to": to, **more} for bring in brought if bring]
+
+    def _all_of(self, name: str) -> list[str]:
+        """An instance or a group of them, else those of a part that are numbered one by one, else the part itself."""
+        instances, parts = self.found.instances, self.found.parts
+        numbered = [key for key in instances if key.rpartition("_")[0] == name]
+        return [name] if name in instances else numbered or [name] * (name in parts)
 
     def fix(self, first: str, second: str, at: complex, height: float, part: str = "") -> None:
         """One body with the first; ``height`` above its lower face."""

@@ -170,6 +170,9 @@ def _expanded(keys: PlanetarySetKeys) -> Expansion:
     if keys.frame:
         _add_frame(made, making)
     _add_drive(made, making.found)
+    # no whole wheel of a herringbone comes in between others
+    if not keys.double_helical:
+        making.order(keys.scheme, meshing={"screwed": True} if keys.helix_angle_deg else {})
     making.name_all()
     return making.found
 

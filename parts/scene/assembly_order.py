@@ -20,6 +20,7 @@ from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.body import WormBody
 from parts.base.part import Part
+from parts.keys.helix import helix_of
 from parts.scene.half_sections import FAR, TOUCH, Sections, drawn_along
 from parts.scene.interference import by_contact, common_volume, inner_solid, placed_solid
 from parts.scene.placing import Placing
@@ -214,9 +215,12 @@ class _Order:
         return shape_of(self.parts[part]).count(0.0, math.inf)
 
     def _slides(self, coming: Instance, standing: Instance, leg: Leg, screwed: bool) -> bool:
-        """Whether gears in contact slide along their teeth; a worm by its thread: what goes before it is no thicker."""
+        """Whether gears in contact slide along their teeth, helical ones as they are screwed, no herringbones; a worm
+        by its thread: what goes before it is no thicker.
+        """
         if all(self.parts[i.part].is_plate for i in (coming, standing)):
-            return abs(abs(leg.way[2]) - 1) < _NONE
+            helix = helix_of(self.parts[coming.part].keys)
+            return abs(abs(leg.way[2]) - 1) < _NONE and (not helix.angle or (screwed and not helix.double))
         made = self.sections.made(coming.part)
         if not screwed or not isinstance(made.thing, WormBody) or made.half is None:
             return False

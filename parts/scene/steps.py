@@ -37,6 +37,7 @@ _OUTWARDS = mm(
 _ONE_HOLE = Meta(
     description=("`to` is turned on for each: all go in where the first does, like a row of balls through one hole")
 )
+_SCREWED = Meta(description="turned in along its thread or helical teeth: a worm past its wheel")
 _OPENED = mm(
     "for turned parts like a snap ring: by how much its radius is opened on the way", above=0, most=1e3, example=1.5
 )
@@ -50,7 +51,7 @@ class StepSpec(Struct, forbid_unknown_fields=True):
     along: Annotated[list[Annotated[float, Meta(ge=-1e6, le=1e6)]], _ALONG] | None = None
     outwards: Annotated[float, _OUTWARDS] | None = None
     one_hole: Annotated[bool, _ONE_HOLE] = False
-    screwed: Annotated[bool, Meta(description="turned in by its thread: a worm past its wheel")] = False
+    screwed: Annotated[bool, _SCREWED] = False
     opened: Annotated[float, _OPENED] | None = None
 
     @property
@@ -69,9 +70,11 @@ class Stage(Record):
 
 def step_specs(
     raw: Sequence[object], parts: Mapping[str, Struct], instances: dict[str, InstanceSpec],
-    groups: Mapping[str, Group], mates: Sequence[MateKeys], source: str,
+    groups: Mapping[str, Group], mates: Sequence[MateKeys], source: str, *, recipes_alone: bool = False,
 ) -> list[StepSpec]:  # fmt: skip
     """The steps of a scene, their groups told out; two models that no mate joins are put together each by itself.
+
+    ``recipes_alone``: none is the scene's own; there are none where it holds more than they bring.
 
     Raises
     ------
@@ -108,6 +111,8 @@ def step_specs(
         whole |= dict.fromkeys((together := {*stage.moved, *stage.standing}), together)
     left = [key for key, one in whole.items() if len(one) == 1]
     if left or any(mate.second not in whole[mate.first] for mate in mates):
+        if recipes_alone:
+            return []
         left = left or [key for key in instances if key not in together]
         raise SceneError(source, "steps", len(found), "never_brought", None, "", left=left[:10])
     return found

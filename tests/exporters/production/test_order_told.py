@@ -25,7 +25,7 @@ NAMES = {"a": "Gear A", "pin_1": "Pin 1", "pin_2": "Pin 2", "pin_3": "Pin 3"}
     ({"along": [1.0, 0.0, 0.0], "outwards": 8.0, "one_hole": True},
      "along x, then 8 mm outwards from its axis, each through the hole of the first, the row turned on"),
     ({"along": [0.0, 0.0, -1.0], "opened": 1.5}, "from above, opened by 1.5 mm"),
-    ({"along": [0.0, 1.0, 0.0], "screwed": True}, "along y, turned in by its thread"),
+    ({"along": [0.0, 1.0, 0.0], "screwed": True}, "along y, turned in along its thread or teeth"),
 ])  # fmt: skip
 def test_each_way_has_its_words(keys: dict[str, Any], way: str) -> None:
     (line,) = steps_told([StepSpec(bring=["pin_1", "pin_2", "pin_3"], to="a", **keys)], NAMES, "en")

@@ -18,6 +18,7 @@ from shapely import affinity
 from exporters.command.cli import main
 from exporters.command.new import plain_scene
 from exporters.production.check import scene_checks
+from exporters.production.order import order_checks
 from geometry.approximation.chords import approximate_profile
 from parts.base.part import Part
 from parts.base.refusal import SceneError
@@ -568,3 +569,55 @@ def test_a_second_stage_that_does_not_fit_is_told_the_turn_of_its_own_mate(tmp_p
         assert found.required == pytest.approx(asked)
         # the sun has twelve or ten teeth: what fits comes again with each
         assert math.remainder(found.value - 234.0, 36.0) == pytest.approx(0.0, abs=1e-9)
+
+
+def held(made: SceneFile) -> dict[str, Any]:
+    """What holding the order of a scene shows."""
+    parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    return order_checks(made.steps, placing, parts, "en")
+
+
+@pytest.mark.parametrize(
+    ("made", "steps"),
+    [
+        (lambda: load_scene("james"), 5), (lambda: load_scene("differential"), 5), (lambda: load_scene("david"), 7),
+        (lambda: load_scene("ferguson"), 7), (lambda: load_scene("two_internal"), 7),
+        (lambda: load_scene("one_external_one_internal"), 7), (lambda: load_scene("james_laser"), 10),
+        (lambda: load_scene("practicum_example_3_print"), 10), (lambda: load_scene("compound_two_stage"), 11),
+        (lambda: load_scene("practicum_example_1"), 10), (lambda: load_scene("practicum_example_2"), 9),
+        (lambda: load_scene("practicum_example_3"), 7),
+        (lambda: scene(teeth=[24, 24, 72], helix_angle_deg=20.0), 5),
+        # no spacers; each satellite for itself
+        (lambda: scene(scheme="david", teeth=[50, 30, 20, 60], axial_gap=0.0, spacing="unequal", satellites=2), 6),
+        (lambda: scene(scheme="one_external_one_internal", teeth=[12, 27, 13, 52], module=1.0, frame=True), 12),
+    ],
+)  # fmt: skip
+def test_a_set_goes_together_from_below(made: Any, steps: int) -> None:
+    """Every part reaches its place straight, and satellites do not under plate or wheels that lie over them."""
+    one = made()
+    found = held(one)
+    assert (found["steps"], found["hindered"]) == (steps, [])
+    last = max(k for k, step in enumerate(one.steps) if any("upper_carrier" in name for name in step.bring))
+    first = min(k for k, step in enumerate(one.steps) if any("satellite" in name for name in step.bring))
+    one.steps.insert(first, one.steps.pop(last))
+    assert any("satellite" in row["coming"] and "carrier" in row["standing"] for row in held(one)["hindered"])
+
+
+@pytest.mark.parametrize(
+    "assembly",
+    [{"kind": "planetary_set", "teeth": [24, 24, 72]}, {"kind": "gear_pair_model", "teeth": [13, 21]}],
+)
+def test_beside_parts_of_the_scene_a_recipe_tells_no_order(assembly: dict[str, Any]) -> None:
+    """Two models in a scene, one of which told an order, were refused: it left the other one apart."""
+    more = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20}
+    made = scene_from_dict({"assemblies": [assembly], "parts": {"more": more}}, "t", "t")
+    assert not made.steps
+    own = {"bring": ["more"], "to": "carrier" if assembly["kind"] == "planetary_set" else "frame"}
+    assert scene_from_dict({"assemblies": [assembly], "parts": {"more": more}, "steps": [own]}, "t", "t").steps[
+        -1
+    ].bring == ["more"]
+
+
+def test_a_herringbone_has_no_order() -> None:
+    assert not scene(teeth=[24, 24, 72], helix_angle_deg=20.0, double_helical=True).steps

@@ -324,3 +324,26 @@ def test_pairs_are_counted_once_each() -> None:
     assert told(found)[0] == {"boxes": 12, "sections": 3}
     assert found.hindered == []
     assert np.isfinite(FAR)
+
+
+@pytest.mark.parametrize(
+    ("keys", "screwed", "how"),
+    [
+        ({}, False, "mesh"), ({"helix_angle_deg": 20.0}, True, "mesh"),
+        # they slid straight through each other
+        ({"helix_angle_deg": 20.0}, False, "solids"),
+        ({"helix_angle_deg": 20.0, "double_helical": True}, True, "solids"),
+    ],
+)  # fmt: skip
+def test_helical_wheels_are_screwed_past_each_other_and_herringbones_are_not(
+    keys: dict[str, Any], screwed: bool, how: str
+) -> None:
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 20.0} | keys
+    raw = {"parts": {"a": gear, "b": gear | ({"hand": "left"} if keys else {})},
+           "mates": [{"kind": "external_gear_pair", "first": "a", "second": "b"}]}  # fmt: skip
+    scene = scene_from_dict(raw, "t", "t")
+    made, matings = make_parts(scene, "t")
+    placing = place(scene.instances, scene.drives, made, matings, "t")
+    found = order_found([StepSpec(bring=["b"], to="a", along=[0.0, 0.0, -1.0], screwed=screwed)], placing, made)
+    assert told(found)[0] == {how: 1}
+    assert bool(found.hindered) is (how == "solids")
