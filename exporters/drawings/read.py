@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from exporters.drawings.dashes import LONGEST
-from exporters.drawings.write import BEARING
+from exporters.drawings.write import BEARING, FLAG
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
@@ -93,9 +93,9 @@ def _read_dxf(file: Path) -> ReadSheet:
                 _add_spline(sheet, curve, curve.spans(share).ravel(), after_another=last == curve.layer)
         last = curve.layer if isinstance(curve, DrawnSpline) else ""
     for one in words:
-        way, free = base_line(one.right - one.left), BEARING * one.height
-        width = abs(one.right - one.left) + 2 * free
-        sheet.texts.append(Run(one.text, one.left - free * way, one.height, width, way))
+        way, black = base_line(one.right - one.left), abs(one.right - one.left)
+        width = black / FLAG if one.text == "1" else black + 2 * BEARING * one.height
+        sheet.texts.append(Run(one.text, one.left - (width - black) / 2 * way, one.height, width, way))
     return sheet
 
 

@@ -32,12 +32,19 @@ _FONT = "arial.ttf"
 _STYLE, _SYMBOLS_STYLE = "unicode", "lc_opengost-ar"
 _OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
 _LINE_TYPES = {2: "DASHED2", 4: "CENTER2", 6: "DIVIDE2"}
-# what letters leave free on either side, parts of their height: programs fit what is black between two points
-BEARING = 0.07
+# what letters leave free on either side, parts of their height: programs fit what is black between two points. A 1 has
+# its flag fitted, a part of its width: one as wide as other digits is read as a 7
+BEARING, FLAG = 0.07, 0.44
 # how words are turned whose base line does not run to the right, degrees
 _TURNS = {1j: -90, -1: 180}
 # the letters of the widths that are stated, and others as wide
 _FAMILY = "font-family:DejaVu Sans Condensed,Arial,Liberation Sans,sans-serif"
+
+
+def _black_of(run: Run) -> tuple[complex, complex]:
+    """The ends of what is black in a run, on its base line."""
+    free = (1 - FLAG) / 2 * run.width if run.text == "1" else BEARING * run.height
+    return run.at + free * run.way, run.at + (run.width - free) * run.way
 
 
 def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
@@ -82,13 +89,13 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         entity = spaces.get(("texts", index), space).add_text(
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
         )
-        free = BEARING * run.height
-        left, right = place_of(run.at + free * run.way), place_of(run.at + (run.width - free) * run.way)
+        left, right = map(place_of, _black_of(run))
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
         counts["TEXT"] += 1
     # all stands within the frame; ezdxf takes a corner at 0, 0 for none
     frame = canvas.reach
     space.reset_extents((frame.left, frame.low, 0.0), (frame.right, frame.high, 0.0))
+    drawing.paperspace().reset_limits((0, 0), (canvas.width, canvas.height))
     save_dxf(drawing, file)
     return counts
 

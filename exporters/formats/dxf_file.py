@@ -25,10 +25,12 @@ def _fixed_metadata() -> Iterator[None]:
 
 @_fixed_metadata()
 def new_drawing() -> Drawing:
-    """An empty drawing of release 2010 in mm, its numbers decimal."""
+    """An empty drawing of release 2010 in mm, its numbers decimal; to be printed at its size."""
     drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
     drawing.header["$LUNITS"] = 2
     drawing.header["$MEASUREMENT"] = 1
+    # the scale at which LibreCAD prints: at 0 sheets stay empty
+    drawing.header["$PSVPSCALE"] = 1.0
     return drawing
 
 

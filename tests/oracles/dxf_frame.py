@@ -26,6 +26,7 @@ def frame(version: str) -> str:
         drawing.header["$LUNITS"] = 2
         if version != "R12":
             drawing.header["$MEASUREMENT"] = 1
+            drawing.header["$PSVPSCALE"] = 1.0
         drawing.modelspace().reset_extents((*_BOX[:2], 0.0), (*_BOX[2:], 0.0))
         drawing.classes.add_required_classes(drawing.dxfversion)
         drawing.classes.classes = dict(sorted(drawing.classes.classes.items()))

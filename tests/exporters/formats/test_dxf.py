@@ -56,6 +56,8 @@ def test_the_header_says_r2000_and_millimetres(tmp_path: Path) -> None:
     header = {v: codes[i + 1][1] for i, (c, v) in enumerate(codes) if c == "9"}
     assert header["$ACADVER"] == "AC1015"
     assert header["$INSUNITS"] == "4"
+    # at 0 LibreCAD prints an empty page
+    assert header["$PSVPSCALE"] == "1.0"
     assert header["$MEASUREMENT"] == "1"
     assert b"\r" not in file.read_bytes()
 

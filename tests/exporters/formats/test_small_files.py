@@ -53,7 +53,7 @@ def test_curves_stand_in_a_drawing_as_they_are(tmp_path: Path) -> None:
     counts, document = drawing_of(curves, tmp_path)
     assert counts == {"LINE": 2, "ARC": 2, "SPLINE": 1, "CIRCLE": 2}
     assert document.dxfversion == "AC1024"
-    assert [document.header[name] for name in ("$INSUNITS", "$LUNITS", "$MEASUREMENT")] == [4, 2, 1]
+    assert [document.header[name] for name in ("$INSUNITS", "$LUNITS", "$MEASUREMENT", "$PSVPSCALE")] == [4, 2, 1, 1]
     layer = document.layers.get("OUTLINE")
     assert (layer.color, layer.dxf.lineweight) == (7, 50)
     line, left, right, spline, *circles, _ = document.modelspace()

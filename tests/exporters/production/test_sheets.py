@@ -131,6 +131,26 @@ def test_librecad_finds_its_fonts_and_line_types_by_their_names(tmp_path: Path) 
     assert {kind.upper() for kind in kinds} <= {"CENTER2", "DASHED2", "CONTINUOUS"}
 
 
+def test_librecad_prints_a_sheet_on_its_paper_at_its_size(tmp_path: Path) -> None:
+    """LibreCAD 2.2 (rs_graphic.cpp): it prints at $PSVPSCALE, 0 gives an empty page, on paper to $PLIMMAX."""
+    for name in ("practicum_pair", "tmm42"):
+        job = job_of(name, "dxf")
+        job.write({}, tmp_path / job.path)
+        header = ezdxf.readfile(tmp_path / job.path).header
+        assert header["$PSVPSCALE"] == 1
+        assert [*header["$PLIMMIN"], *header["$PLIMMAX"]] == pytest.approx([0, 0, job.canvas.width, job.canvas.height])
+
+
+def test_a_1_that_stands_alone_is_no_7(tmp_path: Path) -> None:
+    """Fitted between two points, all of its black: of Arial's 1 that is 540 / 1466 of the height of a capital."""
+    job = job_of("practicum_pair", "dxf")
+    job.write({}, tmp_path / job.path)
+    texts = ezdxf.readfile(tmp_path / job.path).modelspace().query("TEXT")
+    shares = {t.dxf.text: (t.dxf.align_point - t.dxf.insert).magnitude / t.dxf.height for t in texts}
+    assert shares["1"] == pytest.approx(540 / 1466, abs=0.05)
+    assert shares["2"] == pytest.approx(0.64, abs=0.05)
+
+
 def test_splines_are_dashed_whatever_draws_them(tmp_path: Path) -> None:
     """LibreCAD draws a spline solid, whatever its line type is: 4 mm and a gap of 1.5 mm are drawn as that."""
     job = job_of("practicum_pair", "dxf")
