@@ -9,7 +9,6 @@ from exporters.command.asked import DONE, FAILED, WRONG_INPUT, each, language_of
 from exporters.command.tables import part_notes
 from exporters.production.check import scene_checks
 from exporters.production.check_lines import check_lines, has_bad_verdict, names_of
-from exporters.production.order import steps_told
 from parts.base.texts import words
 from parts.scene.checks import check_solids, check_workspace
 from parts.scene.load import in_keys_of_file, make_parts
@@ -44,6 +43,8 @@ def run(options: Namespace) -> int:
         title = [] if len(options.scenes) == 1 else [f"{scene.name}:"]
         lines = check_lines(checks, language, names)
         if options.steps:
+            from exporters.production.order import steps_told
+
             lines += steps_told(scene.steps, names, language)
         lines = lines or [words(language).text("no mates; no solids run into each other")]
         print("\n".join(title + lines + notes))

@@ -370,6 +370,7 @@ def test_a_flat_file_of_a_gear_loads_nothing_of_solids_but_its_keys(tmp_path: Pa
         (["build", "one.toml", "--format", "dxf"], (*NOT_OF_A_GEAR, "geometry.solids.body", "parts.solids")),
         (["build", "one.toml", "--format", "stl"], NOT_OF_A_GEAR),
         (["list"], ("numpy", "msgspec", "geometry", "parts.keys", "parts.gears", "parts.mates.involute")),
+        (["check", "one.toml"], ("exporters.formats", "exporters.production.order", "parts.scene.assembly_order")),
         (["new", "external_gear_pair"], ("numpy", "parts.gears", "geometry.solids")),
         *((["new", mate], ("numpy",)) for mate in ("bevel_pair", "worm_pair", "crossed_helical_pair")),
         (["--help"], ("numpy", "msgspec", "dataclasses", "inspect", "shutil", "math", "parts.base.reasons")),
