@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeAlias
 
 from msgspec import Meta, Struct
 
@@ -31,10 +31,14 @@ _ROUGH = 1e-9
 LAW_AT_REST = "sine"
 
 
+# the last as programs name it, where return is a word of the language
+Move: TypeAlias = Annotated[Literal["rise", "dwell", "return", "return_"], Meta(description="what the follower does")]
+
+
 class PhaseTable(Struct, forbid_unknown_fields=True):
     """A phase of the motion; together they make 360 degrees, from cam angle 0."""
 
-    move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
+    move: Move
     angle_deg: Annotated[float, degrees("cam angle of the phase", above=0, most=360)]
     law: PhaseLaw | LawTable | None = None
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
@@ -43,7 +47,7 @@ class PhaseTable(Struct, forbid_unknown_fields=True):
 def turn(back: LawName) -> list[dict[str, object]]:
     """Phases to start from, as a scene has them; ``back``: law of the return."""
     rest: dict[str, object] = {"move": "dwell", "angle_deg": 60.0}
-    rise, fall = ({"move": move, "angle_deg": 120.0} for move in ("rise", "return_"))
+    rise, fall = ({"move": move, "angle_deg": 120.0} for move in ("rise", "return"))
     return [{**rise, "law": "sine"}, rest, {**fall, "law": back}, rest]
 
 
@@ -108,7 +112,7 @@ class Moved(Stroke, Protocol):
 class MovingPhase(Protocol):
     """A phase over an angle or a way."""
 
-    move: Literal["rise", "dwell", "return_"]
+    move: Move
     law: PhaseLaw | LawTable | None
     share: float
 
@@ -267,18 +271,18 @@ def _check_whole_turn(phases: list[PhaseTable]) -> None:
 
 def _check_return(phases: list[PhaseTable]) -> None:
     """Rises and returns cancel; else refused with the share of one of them that makes them do."""
-    signs = {"rise": 1, "dwell": 0, "return_": -1}
-    total = math.fsum(signs[p.move] * p.share for p in phases)
+    signs = [{"rise": 1, "dwell": 0}.get(p.move, -1) for p in phases]
+    total = math.fsum(sign * p.share for sign, p in zip(signs, phases, strict=True))
     if abs(total) <= 1e-12:
         return
     for index in reversed(range(len(phases))):
-        sign, own = signs[phases[index].move], phases[index].share
+        sign, own = signs[index], phases[index].share
         fitting = round(own - sign * total, 12)
         if sign and 0 < fitting <= 1:
             raise ParameterError(f"phases[{index + 1}].share", own, "does_not_come_back", Nearest(fitting))
     rest = next((k for k, p in reversed(list(enumerate(phases))) if p.move == "dwell"), None)
     if rest is not None:
         raise ParameterError(f"phases[{rest + 1}].move", "dwell", "does_not_come_back")
-    one_way = next(k for k, p in reversed(list(enumerate(phases))) if signs[p.move] * total > 0)
-    other = Nearest("return_" if total > 0 else "rise")
+    one_way = next(k for k in reversed(range(len(phases))) if signs[k] * total > 0)
+    other = Nearest("return" if total > 0 else "rise")
     raise ParameterError(f"phases[{one_way + 1}].move", phases[one_way].move, "does_not_come_back", other)

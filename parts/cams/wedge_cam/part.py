@@ -21,6 +21,7 @@ from parts.keys.base import MOST_LENGTH, MadeKeys, part_mm, start
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
+    Move,
     Swing,
     check_dwell,
     check_stroke,
@@ -55,7 +56,7 @@ _START = [{"move": "rise", "travel": 60.0, "law": "sine"}, {"move": "dwell", "tr
 class WedgePhaseTable(Struct, forbid_unknown_fields=True):
     """A phase of the motion over a part of the travel; the follower need not come back."""
 
-    move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
+    move: Move
     travel: Annotated[float, part_mm("way of the plate in this phase", above=0)]
     law: PhaseLaw | LawTable | None = None
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0

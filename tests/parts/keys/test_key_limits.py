@@ -84,8 +84,10 @@ def test_angles_close_within_a_rounding_and_no_single_one_makes_up_for_turns() -
         ((("rise", 180.0, 1.0), ("return_", 90.0, 1.0), ("return_", 90.0, 1.0)), "[1].share", 1.0, ...),
         # a dwell could be a return; of moves of one way the last one has to go back
         ((("rise", 180.0, 1.0), ("dwell", 180.0, 1.0)), "[2].move", "dwell", ...),
-        ((("rise", 180.0, 1.0), ("rise", 180.0, 1.0)), "[2].move", "rise", "return_"),
+        ((("rise", 180.0, 1.0), ("rise", 180.0, 1.0)), "[2].move", "rise", "return"),
         ((("return_", 180.0, 1.0), ("return_", 180.0, 1.0)), "[2].move", "return_", "rise"),
+        ((("return", 180.0, 1.0), ("return_", 180.0, 1.0)), "[2].move", "return_", "rise"),
+        ((("rise", 120.0, 0.5), ("rise", 60.0, 0.25), ("return", 180.0, 1.0)), "[3].share", 1.0, 0.75),
     ],
 )
 def test_a_motion_that_does_not_come_back_is_told_what_makes_it(
