@@ -42,6 +42,8 @@ class _Teller(Record):
 
 # what is farther apart is no fit, mm
 _FIT = 0.5
+# of a sector on its way, poses in a turn
+_STEPS_A_TURN = 16
 # mates that run no gears in each other: of these transmission error is not asked
 _WITHOUT_TEETH = ("fixed", "coaxial", "carried", "parallel", "pin_seat", "eccentric_bearing")
 
@@ -75,7 +77,7 @@ def scene_checks(
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
                 found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
-            if left := _driven(mate, placing.train):
+            if left := _driven(mate, placing.train, max(turns, default=0.0)):
                 found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
@@ -185,13 +187,21 @@ def _mate(mate: PlacedMate, told: _Teller, *, contact: bool) -> dict[str, Any]:
     return found
 
 
-def _driven(mate: PlacedMate, train: Train | None) -> tuple[Finding, ...]:
-    """What is not kept any more of two that touch where the drives have run as far as the scene asks."""
-    if train is None or not isinstance(mate.mating, Touching):
+def _driven(mate: PlacedMate, train: Train | None, turns: float) -> tuple[Finding, ...]:
+    """What is not kept any more of two that touch where the drives have run as far as the scene asks, or as they stand.
+
+    ``turns`` of the first: so fine are the steps on the way that each tells how it has turned.
+    """
+    if not isinstance(mate.mating, Touching) or (train is None and not mate.mating.stands_in_mesh):
         return ()
     import numpy as np
 
-    first, second = (train.placed(one.id, np.array([0.0, 1.0])) for one in (mate.first, mate.second))
+    if train is None:
+        frames = (one.scene_from_part for one in (mate.first, mate.second))
+        first, second = ((np.array([f.rotation]), np.array([f.translation])) for f in frames)
+        return mate.mating.driven(first, second)
+    t = np.linspace(0.0, 1.0, 2 + math.ceil(_STEPS_A_TURN * turns) * mate.mating.stands_in_mesh)
+    first, second = (train.placed(one.id, t) for one in (mate.first, mate.second))
     return mate.mating.driven(first, second)
 
 

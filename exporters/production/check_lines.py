@@ -47,6 +47,14 @@ _WALLS = N_(
     "{outer[1]:.3g} mm, clearance {clearance:.6g} mm"
 )
 _UNITS = {"mm": N_("mm"), "deg": N_("deg")}
+_IN_MESH = N_(
+    "sector {sector}: in mesh over {mesh_angle_deg:.6g} deg, turning counter-clockwise from {mesh_from_deg:.6g} to "
+    "{mesh_to_deg:.6g} deg off the line of centres; moves {mate} by {way:.6g} {unit}"
+)
+_STEPPED = N_(
+    "sector {sector}: in mesh over {mesh_angle_deg:.6g} deg, then {mate} stands; each run moves it by {way:.6g} {unit}"
+)
+_ENTERS = N_("its first tooth enters a standing {mate} {entry_margin:.4g} mm beside the nearest tip")
 
 
 def names_of(instances: Mapping[str, InstanceSpec], parts: Mapping[str, Part]) -> dict[str, str]:
@@ -104,6 +112,9 @@ def check_lines(
             walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
             text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"
         lines.append(text)
+        leaves = any(found["code"] == "sector_leaves_mesh" for found in mate.get("findings", []))
+        for sector in mate.get("sectors", []):
+            lines += _sector(sector, told, names, enters=sector["intermittent"] or leaves)
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
         broken = [_condition(mate, c) for c in mate.get("conditions", []) if not c["met"]]
@@ -139,6 +150,14 @@ def check_lines(
         for found in checks["order"]["hindered"]:
             lines.append(f"{told.text(VERDICTS[found['verdict']])}: {hindered_told(found, told, names)}")
     return [*lines, *_drives(checks, names, told)]
+
+
+def _sector(found: Mapping[str, Any], told: Words, names: Mapping[str, str], enters: bool) -> list[str]:
+    """Where the teeth of a sector are in mesh, what they move, and where it ``enters`` a mate that stands, how."""
+    way, unit = (found["mate_travel"], "mm") if "mate_travel" in found else (found["mate_turn_deg"], "deg")
+    numbers = {**called(found, names), "way": way, "unit": Message(_UNITS[unit])}
+    lines = [told.text(_STEPPED if found["intermittent"] else _IN_MESH, **numbers)]
+    return [*lines, told.text(_ENTERS, **numbers)] if enters and found["entry_margin"] >= 0 else lines
 
 
 def _condition(mate: Mapping[str, Any], found: Mapping[str, Any]) -> Message:

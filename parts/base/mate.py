@@ -126,10 +126,6 @@ class Mating(Joined, kw_only=True):
     decides_solids = False
     # whether the second stands wherever the first puts it: a follower on its cam
     follows = False
-    # whether the ratio of its joints is only that of whole turns
-    uneven = False
-    # whether the second of an ``uneven`` pair drives nothing: it is locked while it stands
-    only_first_drives = False
     # whether a second that stands already must stand at ``height``
     asks_height = True
     # whether the first may lie on any axis, and the second stand already: ``laid_standing`` holds them together
@@ -149,6 +145,16 @@ class Mating(Joined, kw_only=True):
         if not self.bond:
             return ()
         return ((Fixed if self.bond == "fixed" else Revolute)(self.second, on=self.first),)
+
+    @property
+    def uneven(self) -> bool:
+        """Whether the ratio of its joints is only that of whole turns."""
+        return False
+
+    @property
+    def only_first_drives(self) -> bool:
+        """Whether the second of an ``uneven`` pair drives nothing: it is locked, or left, while it stands."""
+        return False
 
     @property
     def asked_turn(self) -> float | None:
@@ -212,8 +218,13 @@ class Mating(Joined, kw_only=True):
         """Conditions of both together that are not kept."""
         return ()
 
+    @property
+    def stands_in_mesh(self) -> bool:
+        """Whether ``driven`` asks for all of the way, and for both as they stand where nothing drives them."""
+        return False
+
     def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
-        """Conditions that are not kept where both stand as drives begin and end."""
+        """Conditions that are not kept where both stand as drives begin and end, or on their way."""
         return ()
 
     def quantities(self) -> dict[str, Any]:

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
+from fractions import Fraction
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
+
+from msgspec import Meta
 
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
 from geometry.base.nearest import nearest
@@ -20,15 +23,19 @@ from parts.mates.gear_pair import GearPair, as_far_as_teeth_follow
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
+    import numpy as np
     from msgspec import Struct
+    from numpy.typing import NDArray
 
     from geometry.base.findings import Finding
     from geometry.base.placement import Placement3
     from geometry.gears.mesh.search import MeshSearch, PairContact
     from geometry.gears.mesh.transmission_error import TransmissionError
+    from geometry.gears.pairs.common_face import CommonFace
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
     from geometry.gears.pairs.rack import RackPair
+    from geometry.gears.pairs.sector_mesh import SectorMesh, Steps
     from geometry.gears.teeth.rack import Rack
     from geometry.gears.teeth.ring import RingGear
     from geometry.gears.teeth.spur import SpurGear
@@ -37,9 +44,20 @@ if TYPE_CHECKING:
 
     Pair = ExternalPair | InternalPair | RackPair
 
+# what is no turn, rad
+_SLIGHT = 1e-9
 
-class ExternalGearPairSpec(InvolutePairKeys, tag="external_gear_pair"):
+
+_INTERMITTENT = Meta(
+    description="the first one, with a sector, turns so; the second stands while no tooth of it is in mesh",
+    examples=["counter_clockwise"],
+)
+
+
+class ExternalGearPairSpec(InvolutePairKeys, tag="external_gear_pair", kw_only=True):
     """Keys of ``external_gear_pair``."""
+
+    intermittent: Annotated[Literal["counter_clockwise", "clockwise"], _INTERMITTENT] | None = None
 
 
 class InternalGearPairSpec(InvolutePairKeys, tag="internal_gear_pair"):
@@ -62,17 +80,98 @@ class GearMating(Toothed):
 
     ``normal_share``: of a gap in the transverse section that is left at right angles to the flanks, cos(beta_b).
     ``alone``: the same pair with the tips that its keys give it, where this mate made them shorter.
+    ``sectors``: where the teeth of sectors are in mesh, by their place in the pair; ``steps``: of an intermittent one.
     """
 
     pair: Pair
     normal_share: float
     alone: ExternalPair | InternalPair | None = None
+    sectors: tuple[tuple[int, SectorMesh], ...] = ()
+    steps: Steps | None = None
+
+    @property
+    def uneven(self) -> bool:
+        """Of an intermittent one."""
+        return self.steps is not None
+
+    @property
+    def only_first_drives(self) -> bool:
+        """A mate that no tooth touches moves nothing."""
+        return self.steps is not None
+
+    def partner(self, driver: str, rotation: float, direction: float) -> float:
+        """The second one's rotation, while it stands too."""
+        return self.second_rotation(rotation, direction)
+
+    def place(self, end: int) -> int:
+        """The place in the pair of the mate's first (0) or second (1)."""
+        return end
+
+    @property
+    def stands_in_mesh(self) -> bool:
+        """Where a sector moves the other to and fro."""
+        return bool(self.sectors) and self.steps is None
+
+    def sees(self, end: int) -> float:
+        """The direction in which the mate's first or second sees the mesh, off that to the other's axis, rad."""
+        return 0.0
+
+    def towards(self, end: int, first: Frames, second: Frames) -> NDArray[np.float64]:
+        """From the axis of the first or the second to the other's."""
+        return second[1] - first[1] if end == 0 else first[1] - second[1]
+
+    def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
+        """Whether the teeth of a sector leave the mesh on the way of the drives."""
+        if not self.stands_in_mesh:
+            return ()
+        import numpy as np
+
+        from geometry.base.findings import Finding
+
+        found, meshes = list[Finding](), dict(self.sectors)
+        for end, (turned, _) in enumerate((first, second)):
+            if (mesh := meshes.get(self.place(end))) is None:
+                continue
+            seen = (turned * self.towards(end, first, second)[..., None]).sum(-2)
+            rho = np.unwrap(-np.arctan2(seen[..., 1], seen[..., 0]) - self.sees(end))
+            beyond = mesh.beyond(float(rho.min()), float(rho.max()), float(rho[0]))
+            if beyond > _SLIGHT:
+                found.append(Finding("sector_leaves_mesh", math.degrees(beyond), math.degrees(mesh.mesh_angle)))
+                found += mesh.jam
+        return tuple(found)
+
+    def _sectors(self) -> dict[str, Any]:
+        """What sectors do: over which of their turns they are in mesh, and by how much they move the other."""
+        told, meshes = [], dict(self.sectors)
+        for end, name, other in ((0, self.first, self.second), (1, self.second, self.first)):
+            if (mesh := meshes.get(self.place(end))) is None:
+                continue
+            low, high = map(math.degrees, mesh.ends())
+            slides = isinstance(self, RackMating)
+            way = (mesh.mesh_angle if self.steps is None else self.steps.moved * mesh.pitch) * mesh.rate
+            told.append(
+                {
+                    "sector": name,
+                    "mate": other,
+                    "teeth": mesh.teeth,
+                    "runs": mesh.runs,
+                    "mesh_angle_deg": math.degrees(mesh.mesh_angle),
+                    "mesh_from_deg": low,
+                    "mesh_to_deg": high,
+                    "entry_margin": mesh.entry_margin,
+                    "intermittent": self.steps is not None,
+                    **({"mate_travel": way} if slides else {"mate_turn_deg": math.degrees(way)}),
+                }
+            )
+        return {"sectors": told} if told else {}
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept, and the tips that are not those that the keys alone would give."""
         from geometry.base.findings import Finding
 
         found = self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
+        if self.steps is not None:
+            found = *found, *self.steps.mesh.jam
         if self.alone is None:
             return found
         made = zip(self.alone.roles, self._tips(self.pair), self._tips(self.alone), strict=True)
@@ -90,7 +189,19 @@ class GearMating(Toothed):
             "effective_contact_ratio": self.pair.effective_contact_ratio,
             **self.face.quantities(self.pair.effective_contact_ratio),
             "normal_backlash": self.normal_backlash,
+            **self._sectors(),
         }
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Of an intermittent pair the ratio of whole turns: each run moves the second by its teeth."""
+        if self.steps is None:
+            return super().joints
+        from geometry.kinematics.mechanism import Rolling
+
+        assert self.rolls is not None
+        moved = self.steps.mesh.teeth * self.steps.mesh.runs
+        return (Rolling(self.rolls, self.first, self.second, (moved, self.teeth[1]), sense=self.sense),)
 
     def _turned(self, first: Pose, second: Pose, gear: SpurGear | RingGear) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash."""
@@ -137,6 +248,8 @@ class ExternalMating(GearMating):
 
     def second_rotation(self, rotation: float, direction: float) -> float:
         """A tooth of one in a space of the other."""
+        if self.steps is not None:
+            rotation = direction + self.steps.advanced(rotation - direction)
         return self.pair.second_rotation(rotation, direction)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
@@ -169,6 +282,14 @@ class InternalMating(GearMating):
     def ring_first(self) -> bool:
         """Whether the ring is the placed one."""
         return self.teeth[0] > self.teeth[1]
+
+    def place(self, end: int) -> int:
+        """The pinion is the pair's first."""
+        return 1 - end if self.ring_first else end
+
+    def sees(self, end: int) -> float:
+        """A pinion sees the mesh away from the ring's axis."""
+        return 0.0 if self.place(end) else math.pi
 
     def second_rotation(self, rotation: float, direction: float) -> float:
         """A tooth of one in a space of the other."""
@@ -214,8 +335,6 @@ class RackMating(GearMating):
     @property
     def joints(self) -> tuple[Joint, ...]:
         """The rack slides along its own x axis; pi times this module is its pitch along it."""
-        from fractions import Fraction
-
         from geometry.kinematics.mechanism import Prismatic, Rolling
 
         rolling = Rolling("rack", self.first, self.second, (self.teeth[0], 1), module=Fraction(str(self.module)))
@@ -261,9 +380,14 @@ class RackMating(GearMating):
         from geometry.base.findings import Finding
 
         turned, middle = second
+        found = super().driven(first, second)
         farthest = float(abs(((middle - first[1]) * turned[..., 0]).sum(-1)).max())
         half = self.pair.rack.length / 2
-        return (Finding("rack_runs_out", farthest, half),) if farthest > half else ()
+        return (*found, Finding("rack_runs_out", farthest, half)) if farthest > half else found
+
+    def towards(self, end: int, first: Frames, second: Frames) -> NDArray[np.float64]:
+        """Against the rack's teeth."""
+        return -second[0][..., 1]
 
     def quantities(self) -> dict[str, Any]:
         """Working quantities; the working circle is the reference circle."""
@@ -273,6 +397,33 @@ class RackMating(GearMating):
             "travel_per_turn": self.pair.travel_per_turn,
             **self._ratios(),
         }
+
+
+def _sectors(keys: InvolutePairKeys, pair: Pair, face: CommonFace) -> dict[str, Any]:
+    """What a mating says of the sectors of its pair, nothing where there is none.
+
+    Raises
+    ------
+    ParameterError
+        What is to move the other step by step is no sector, or helical, or never lets it stand.
+    """
+    way: str | None = getattr(keys, "intermittent", None)
+    if way is None and all(gear.sector is None for gear in pair.gears):
+        return {}
+    from geometry.gears.pairs.external import ExternalPair
+    from geometry.gears.pairs.sector_mesh import Steps, sector_meshes
+
+    found = sector_meshes(pair, math.copysign(face.overlap_ratio, face.helix.signed_angle))
+    if way is None or not isinstance(pair, ExternalPair):
+        return {"sectors": tuple(found.items())}
+    if 0 not in found:
+        raise ParameterError("mate.intermittent", way, "intermittent_needs_sector", Nearest(None))
+    if face.helix.angle:
+        raise ParameterError("mate.intermittent", way, "intermittent_needs_straight_teeth", Nearest(None))
+    steps = Steps(found[0], pair, 1 if way == "counter_clockwise" else -1)
+    if steps.rest <= 0:
+        raise ParameterError("mate.intermittent", way, "intermittent_never_stands", Nearest(None))
+    return {"sectors": tuple(found.items()), "steps": steps}
 
 
 A = TypeVar("A")
@@ -306,6 +457,7 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
         from parts.keys.helix import common_face
 
         pair, share = self.paired(first, second, distance), self.normal_share(first, second)
+        face = common_face(first.keys, second.keys)
         return self.mated(
             *self.joined(keys),
             distance=pair.working_centre_distance,
@@ -315,7 +467,8 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
             normal_backlash=pair.normal_backlash * share,
             normal_share=share,
             pair=pair,
-            face=common_face(first.keys, second.keys),
+            face=face,
+            **_sectors(keys, pair, face),
         )
 
     def pressure_angle(self, first: End[Any], second: End[Any]) -> float:

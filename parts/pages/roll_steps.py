@@ -57,7 +57,7 @@ def _pitch_point(page: Sheet, alpha: float) -> None:
 
 def rack_rolls(page: Sheet, pair: RackPair) -> None:
     """What ``pair_rolls`` tells, of a gear on a rack."""
-    base, (low, high) = pair.gear.base_radius, pair.active_ends
+    base, (low, high) = pair.gear.base_radius, pair.active_line
     forms = pair.sides[0].flank_radii(relief=True)
     rows = (
         ("root_form", "root_form", "d_Ff", forms[0]),

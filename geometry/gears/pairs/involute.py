@@ -172,7 +172,7 @@ class InvolutePair(Record, Generic[G, S], dict=True):
     @property
     def effective_contact_ratio(self) -> float:
         """eps_alpha between the ends of the active profiles: less where a fillet or a base circle ends a flank."""
-        low, high = self._active_line()
+        low, high = self.active_line
         return (high - low) / self.base_pitch
 
     @property
@@ -192,13 +192,14 @@ class InvolutePair(Record, Generic[G, S], dict=True):
 
         Where the mate's tip asks for more than the involute has, the root form circle or the base circle bounds it.
         """
-        active, line = self._active_line(), self._line_of_action
+        active, line = self.active_line, self._line_of_action
         (low, high), two = active, self.second.base_radius
         ends = [math.hypot(two, line - self.sign * at) for at in active[:: -self.sign]]
         one = self.first.base_radius
         return (math.hypot(one, low), math.hypot(one, high)), (ends[0], ends[1])
 
-    def _active_line(self) -> tuple[float, float]:
+    @property
+    def active_line(self) -> tuple[float, float]:
         """Where contact begins and ends on the line of action, mm from the first gear's base circle."""
         asked, forms, tips = self._start_tangents(), self._form_tangents(), self._tip_tangents()
         return max(asked[0], forms[0]), min(tips[0], self.sign * (self._line_of_action - forms[1]))

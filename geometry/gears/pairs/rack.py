@@ -102,11 +102,11 @@ class RackPair(Record, dict=True):
     @property
     def effective_contact_ratio(self) -> float:
         """eps_alpha between the ends of the active profiles: less where a fillet ends a flank."""
-        low, high = self.active_ends
+        low, high = self.active_line
         return (high - low) / self.base_pitch
 
     @property
-    def active_ends(self) -> tuple[float, float]:
+    def active_line(self) -> tuple[float, float]:
         """Where contact begins and ends on the line of action, mm from the gear's base circle."""
         gear, rack = self._gear_tangents(), self._rack_tangents()
         return max(gear[0], rack[0]), min(gear[1], rack[1])

@@ -156,7 +156,7 @@ def _rack(pair: RackPair) -> MeshingPicture:
     gear, rack, angle = pair.gear, pair.rack, pair.rack.rack.pressure_angle
     one, theta = gear.base_radius, math.pi / 2 - angle
     spoke = cmath.exp(1j * theta)
-    low, high = pair.active_ends
+    low, high = pair.active_line
     pole, half = one * math.tan(angle), rack.tooth_thickness / 2
     ends = math.hypot(one, low), math.hypot(one, high)
 

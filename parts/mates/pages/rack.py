@@ -69,7 +69,7 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKey
     plain = not (gear.tip_chamfer or gear.tip_rounding or gear.rack.relief or rack.tip_chamfer or rack.tip_rounding)
     page.add("contact_ratio", pair.contact_ratio, formula if plain else "", "ISO 21771")
     overlap_steps(page, pair, helical)
-    low, high = pair.active_ends
+    low, high = pair.active_line
     pole = gear.base_radius * math.tan(rack.rack.pressure_angle)
     page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
     page.add("approach_length", pole - low, "", "ISO 21771")

@@ -1,0 +1,195 @@
+"""Sectors in mesh: where their teeth touch, and how they move a mate that stands, against polygons that are turned."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from shapely.affinity import rotate, translate
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+
+from geometry.gears.pairs.external import ExternalPair, external_pair
+from geometry.gears.pairs.internal import internal_pair
+from geometry.gears.pairs.rack import rack_pair
+from geometry.gears.pairs.sector_mesh import SectorMesh, Steps, sector_meshes
+from geometry.gears.teeth.basic_rack import iso_53
+from geometry.gears.teeth.offset import gear_region
+from geometry.gears.teeth.rack import Rack
+from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.ring_offset import ring_region
+from geometry.gears.teeth.sector import Sector, centred
+from geometry.gears.teeth.spur import SpurGear
+from tests.geometry.gears.teeth.test_sector import polygon
+from tests.sampling import some_of
+
+# mm: chords of polygons lie nearer to their curves; rad beyond the ends of contact, where a gap is many times that
+_TOUCH, _PAST = 4e-4, 0.04
+
+
+def put(shape: BaseGeometry, turn: float, x: float = 0.0) -> BaseGeometry:
+    """Turned about its axis, which is moved to x."""
+    return translate(rotate(shape, math.degrees(turn), origin=(0, 0)), x, 0)
+
+
+class Case(NamedTuple):
+    """A sector of z1 teeth that keeps n in so many runs, and its mate."""
+
+    z1: int
+    n: int
+    z2: int
+    runs: int = 1
+    first: int | None = None
+    x1: float = 0.0
+    x2: float = 0.0
+
+
+_CASES = (
+    Case(24, 6, 17), Case(30, 7, 30), Case(20, 4, 60), Case(36, 8, 12, x2=0.3), Case(24, 3, 30, runs=2),
+    Case(24, 1, 18, first=3), Case(18, 2, 40, x1=0.3, x2=-0.2),
+)  # fmt: skip
+
+
+@cache
+def made(case: Case) -> tuple[ExternalPair, Polygon, Polygon]:
+    """The pair with a little backlash, and the polygons of both."""
+    first = centred(case.n) if case.first is None else case.first
+    sector = Sector(case.n, first, case.runs)
+    one = SpurGear(2.0, case.z1, iso_53("A"), case.x1, sector=sector, circumferential_thinning=0.05)
+    two = SpurGear(2.0, case.z2, iso_53("A"), case.x2, circumferential_thinning=0.05)
+    pair = external_pair(one, two)
+    return pair, *(polygon(gear_region(g).region.outer) for g in pair.gears)
+
+
+def gap(case: Case, rho: float, contact: int) -> float:
+    """Between both as the mate's flanks touch those of a gear with all teeth on one side."""
+    pair, one, two = made(case)
+    return float(
+        put(one, rho).distance(put(two, pair.second_rotation(rho, contact=contact), pair.working_centre_distance))
+    )
+
+
+@pytest.mark.parametrize("case", _CASES)
+def test_teeth_touch_from_the_first_to_the_last_of_the_line_of_contact(case: Case) -> None:
+    mesh = sector_meshes(made(case)[0])[0]
+    for way in (1, -1):
+        low, high = mesh.ends(way)
+        assert max(gap(case, rho, way) for rho in (low + 1e-4, (low + high) / 2, high - 1e-4)) < _TOUCH
+        assert min(gap(case, rho, way) for rho in (low - _PAST, high + _PAST)) > 5 * _TOUCH
+    assert mesh.mesh_angle == pytest.approx(
+        (case.n - 1 + made(case)[0].effective_contact_ratio) * 2 * math.pi / case.z1, rel=1e-12
+    )
+
+
+def test_a_driven_sector_touches_over_as_much() -> None:
+    """The second of a pair: its flanks that look clockwise, in its own frame counter-clockwise, are driven."""
+    one = SpurGear(2.0, 17, iso_53("A"), circumferential_thinning=0.05)
+    two = SpurGear(2.0, 24, iso_53("A"), sector=Sector(6, -2), circumferential_thinning=0.05)
+    pair = external_pair(one, two)
+    mesh = sector_meshes(pair)[1]
+    shapes = [polygon(gear_region(g).region.outer) for g in pair.gears]
+
+    def off(rho: float, way: int) -> float:
+        # turned back, the first drives the second to rho off the way back along the line of centres
+        first = -(rho + math.pi - pair.second_rotation(0.0)) * 24 / 17
+        second = pair.second_rotation(first, contact=way)
+        assert second == pytest.approx(rho + math.pi, abs=0.1)
+        return float(put(shapes[0], first).distance(put(shapes[1], second, pair.working_centre_distance)))
+
+    low, high = mesh.ends(1)
+    # where the driver turns clockwise, the second counter-clockwise: the other flanks of both
+    found = {way: [off(rho, way) for rho in (low + 0.003, (low + high) / 2, high - 0.003)] for way in (1, -1)}
+    assert min(max(gaps) for gaps in found.values()) < _TOUCH
+    way = min(found, key=lambda w: max(found[w]))
+    assert min(off(low - _PAST, way), off(high + _PAST, way)) > 5 * _TOUCH
+
+
+@pytest.mark.parametrize("of_ring", [True, False])
+def test_sectors_inside_a_ring(of_ring: bool) -> None:
+    kept = Sector(8, centred(8, -1 if of_ring else 1))
+    ring = RingGear(2.0, 60, math.radians(20), 150.0, RoundedRoot(1.25, 0.3), given_tip_diameter=117.0,
+                    circumferential_thinning=0.05, sector=kept if of_ring else None)  # fmt: skip
+    pinion = SpurGear(2.0, 20, iso_53("A"), circumferential_thinning=0.05, sector=None if of_ring else kept)
+    pair = internal_pair(pinion, ring)
+    (mesh,) = sector_meshes(pair).values()
+    inner = polygon(gear_region(pair.pinion).region.outer)
+    region = ring_region(pair.ring).region
+    outer = polygon(region.outer) - polygon(region.holes[0])
+
+    def off(rho: float, way: int) -> float:
+        # the mesh lies on +x; the pair's line of centres runs from the pinion to the ring, to -x
+        turn = rho * 60 / 20 if of_ring else rho
+        second = pair.second_rotation(turn, math.pi, contact=0)
+        base = pair.second_rotation(0.0, math.pi)
+        play = pair.normal_backlash / (2 * pair.ring.base_radius)
+        placed = (second - base) + way * play
+        return float(put(inner, turn).distance(put(outer, placed, -pair.working_centre_distance)))
+
+    low, high = mesh.ends(1)
+    best = {way: [off(rho, way) for rho in (low + 2e-3, (low + high) / 2, high - 2e-3)] for way in (1, -1)}
+    way = min(best, key=lambda w: max(best[w]))
+    assert max(best[way]) < _TOUCH
+    assert max(best[-way]) > 10 * _TOUCH
+    assert min(off(low - _PAST, way), off(high + _PAST, way)) > 5 * _TOUCH
+
+
+def test_a_sector_on_a_rack_moves_it_by_its_arc() -> None:
+    """(n - 1 + eps) pitches of the rack."""
+    gear = SpurGear(2.0, 40, iso_53("A"), sector=Sector(9, -4))
+    pair = rack_pair(gear, Rack(2.0, 16, iso_53("A"), 5.0))
+    mesh = sector_meshes(pair)[0]
+    assert mesh.mesh_angle * mesh.rate == pytest.approx((8 + pair.effective_contact_ratio) * 2 * math.pi, rel=1e-12)
+
+
+@pytest.mark.parametrize("case", _CASES)
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_mate_that_is_moved_step_by_step_is_always_clear_and_always_pushed(case: Case, way: int) -> None:
+    """Through a turn in small steps: no overlap of polygons, and while the mate moves some tooth touches it."""
+    pair, one, two = made(case)
+    mesh = sector_meshes(pair)[0]
+    steps = Steps(mesh, pair, way)
+    assert mesh.entry_margin > 0
+    lead = mesh.last if way > 0 else -mesh.first
+    moving = steps.left - steps.first_touch + mesh.last - mesh.first
+    turns = [way * (steps.first_touch - lead + at) for at in np.linspace(-0.3, 2 * math.pi - 0.3, 400)]
+    for rho in some_of(turns, 40):
+        second = pair.second_rotation(steps.advanced(rho), contact=way)
+        placed = put(one, rho), put(two, second, pair.working_centre_distance)
+        assert placed[0].intersection(placed[1]).area < 1e-4
+        passed = (way * rho + lead - steps.first_touch) % mesh.turn
+        if passed < moving:
+            assert placed[0].distance(placed[1]) < 2 * _TOUCH
+    # a turn moves the mate by whole teeth
+    moved = (steps.advanced(2 * math.pi) - steps.advanced(0.0)) * case.z1 / (2 * math.pi)
+    assert moved == pytest.approx(case.runs * steps.moved, abs=1e-9)
+    assert steps.moved == case.n - 1 + steps.ahead
+
+
+@pytest.mark.parametrize(("case", "jams"), [(Case(24, 5, 20), True), (Case(40, 9, 15), True), (Case(30, 7, 30), False)])
+def test_a_first_tooth_that_jams_meets_a_tip_from_outside(case: Case, jams: bool) -> None:
+    """A negative margin: as the tips of the first tooth arrive, they stand on a tip land of the standing mate."""
+    pair, one, two = made(case)
+    mesh = sector_meshes(pair)[0]
+    assert (mesh.entry_margin < 0) is jams
+    steps = Steps(mesh, pair, 1)
+    standing = put(two, pair.second_rotation(steps.stands - mesh.last, contact=1), pair.working_centre_distance)
+    # the first place at which the sector, turned on, runs into the mate
+    places = np.arange(-mesh.last - 1.0, 1.0, 2e-4)
+    touch = next(rho for rho in places if put(one, rho).intersection(standing).area > 1e-9)
+    common = put(one, touch + 2e-4).intersection(standing)
+    assert isinstance(common, Polygon)
+    corner = max(math.hypot(x, y) for x, y in common.exterior.coords)
+    # a tooth that jams does so with its tip corner
+    assert (pair.first.tip_radius - corner < 1e-6) is jams
+
+
+def test_what_stays_in_mesh_goes_not_beyond() -> None:
+    mesh = SectorMesh(5, 2, 0.2, -0.1, 0.2, -0.4, 0.4, 1.0, 0.0)
+    low, high = mesh.ends(0)
+    assert (low, high) == pytest.approx((-0.6, 0.6))
+    assert mesh.beyond(low, high, 0.0) == 0.0
+    assert mesh.beyond(low - 0.1, high, 0.0) == pytest.approx(0.1)
+    assert mesh.beyond(math.pi - 0.1, math.pi + 0.75, math.pi) == pytest.approx(0.15)
