@@ -21,7 +21,6 @@ from exporters.command.asked import (
     scene_of,
 )
 from exporters.command.tables import Columns, part_notes, show
-from exporters.production.build import Built, build, steps
 from exporters.production.check_lines import check_lines, names_of
 from exporters.production.jobs import Written
 from exporters.production.plan import Plan, plan_build
@@ -32,6 +31,7 @@ from parts.base.texts import N_, Words, words
 from parts.texts.findings import finding_message
 
 if TYPE_CHECKING:
+    from exporters.production.build import Built
     from parts.scene.scene_file import SceneFile
 
 # as many pictures of parts are named each
@@ -65,6 +65,9 @@ def run(options: Namespace) -> int:
 
 def _built(plan: Plan, options: Namespace) -> bool:
     """Build a scene and show what was made; returns whether all is well."""
+    # a scene that is refused is told without it
+    from exporters.production.build import build, steps
+
     folder = options.out / plan.scene.name
     partial, verify = bool(options.part or options.format), not options.no_verify
     with progress_of(options, plan.scene.name, steps(plan)) as advance:
