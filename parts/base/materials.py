@@ -16,6 +16,8 @@ from parts.base.texts import Words
 if TYPE_CHECKING:
     from geometry.solids.mass import Moments
 
+# a steel told by its carbon alone (GOST 1050), in hundredths of a percent
+_CARBON = re.compile(r"[0-8]\d")
 # a thickness in a material's name
 _MM = re.compile(r"(\d) ?mm\b")
 # and the one size of a sheet, in capitals: of a rod or a bar there is a sign before it
@@ -49,8 +51,11 @@ def check_material(material: str, source: str, place: str) -> None:
     if density_of(material) is None:
         from parts.base.densities import DENSITIES
 
-        near = meant(_fold(material), _by_letters())
-        cure = near and Nearest(_by_letters()[str(near.value)], "meant")
+        # of the many marks that begin with it none is meant
+        by_carbon = _CARBON.fullmatch(material) is not None
+        near = None if by_carbon else meant(_fold(material), _by_letters())
+        known = f"steel {material}" if by_carbon else near and _by_letters()[str(near.value)]
+        cure = Nearest(known, "meant") if known else None
         raise SceneError(source, place, material, "unknown_material", cure, known=list(DENSITIES))
 
 

@@ -20,6 +20,7 @@ from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.counted_over import counted_over
 from parts.base.refusal import SYNONYMS, SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
+from parts.base.units import sexagesimal, written_units
 
 S = TypeVar("S", bound=Struct)
 K = TypeVar("K")
@@ -167,8 +168,11 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if wrong_type is None:
         return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
     types, owner = wrong_type.group(1), _owner(kind, keys[:-1], table)
-    may_be_parted = {"float", "array"} & {*types.split(" | ")}
-    if may_be_parted and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
+    if (
+        "float" in types.split(" | ")
+        and isinstance(value, str)
+        and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value))
+    ):
         return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
     is_text = {*types.split(" | ")} - {"null"} == {"str"}
     if is_text and isinstance(value, list) and (listed_in := re.match(r"(exports|mates|drives)\[", where)):
@@ -179,7 +183,9 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         return SceneError(source, where, value, code, None, last=keys[-1], quoted=quoted, allowed=allowed)
     code = "wrong_type" if allowed is None else "wrong_type_of"
     nearest = _of_type(value, types, owner, keys[-1])
-    return SceneError(source, where, value, code, nearest, type=type_words(types), allowed=allowed)
+    field = _field(owner, keys[-1])
+    told = type_words(types, tables=field is None or bool(tables_of(field)))
+    return SceneError(source, where, value, code, nearest, type=told, allowed=allowed)
 
 
 def _of_type(value: object, types: str, owner: type[Struct], name: str) -> Nearest | None:
@@ -189,6 +195,8 @@ def _of_type(value: object, types: str, owner: type[Struct], name: str) -> Neare
         return Nearest(f"{name}_diameter", "meant")
     if not name.isdigit() and (number := _number_meant(value, _types_of(owner).get(name))):
         return number
+    if not name.isdigit() and (row := _row_meant(value, _types_of(owner).get(name))):
+        return row
     field = _field(owner, name)
     tables = tables_of(field) if field and "object" in types else []
     return Nearest(f"{name} = {table_line(tables[0])}", "like") if tables else None
@@ -196,29 +204,56 @@ def _of_type(value: object, types: str, owner: type[Struct], name: str) -> Neare
 
 # a number in quotes, a fraction or a share, with a sign of print, with its unit or with what has slipped in about it
 _WRITTEN = re.compile(
-    r"[\s\"'\u201c\u201d\u00ab\u00bb=(]*([-+\u2212\u2013]?)(\d+\.?\d*|\.\d+)(?:/(\d+\.?\d*))?\s*([^\W\d_/]*|\W*)"
+    r"([\s\"'\u201c\u201d\u00ab\u00bb=(]*)([-+\u2212\u2013]?)(\d+[.,]?\d*|[.,]\d+)(?:/(\d+[.,]?\d*))?\s*(\D*)"
 )
-_UNITS = {"mm": ["mm", "\u043c\u043c"], "degrees": ["\u00b0", "deg"], "%": ["%"]}
+# several numbers in a row, in brackets of any kind or none
+_ROW = re.compile(r"[\s\[({]*(-?\d+(?:\.\d+)?)(?:(?:\s*[,;]\s*|\s+)(-?\d+(?:\.\d+)?))+[\s\])}]*")
 
 
 def _number_meant(value: object, kind: object) -> Nearest | None:
     """The number that a key may hold and that was probably meant by what is none of its type, or nothing."""
     if isinstance(value, list) and len(value) == 1:
         (value,) = value
-    if isinstance(value, str) and (found := _WRITTEN.fullmatch(value)):
-        sign, digits, by, behind = found.groups("")
-        behind, unit = behind.strip("\"'\u201c\u201d\u00ab\u00bb;,). "), _unit(kind)
-        if behind not in ("", "%", unit, *_UNITS.get(unit, [])) or float(by or 1) == 0:
-            return None
-        value = float(digits) / float(by or 1) / (100 if behind == "%" != unit else 1) * (1 if sign in "+" else -1)
+    if isinstance(value, str):
+        value = _number_in(value, _unit(kind))
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     number = int(value) if float(value).is_integer() else float(f"{value:.12g}")
-    try:
-        msgspec.convert(number, kind)
-    except msgspec.ValidationError:
+    return Nearest(number, "meant") if _fits(number, kind) else None
+
+
+def _number_in(text: str, unit: str) -> float | None:
+    """The number that a text has, in the unit of its key; None: none, or of another unit."""
+    if unit == "degrees" and (angle := sexagesimal(text)) is not None:
+        return angle
+    if (found := _WRITTEN.fullmatch(text)) is None:
         return None
-    return Nearest(number, "meant")
+    before, sign, *numbers, behind = found.groups("")
+    digits, by = (float(number.replace(",", ".") or 1) for number in numbers)
+    behind = behind.strip().lower()
+    # what quotation marks leave, but for a lone one behind a length: inches
+    if before.strip() or unit != "mm" or behind not in written_units():
+        behind = behind.strip("\"'\u201c\u201d\u00ab\u00bb;,). ")
+    size, of = (0.01 if unit != "%" else 1.0, unit) if behind == "%" else written_units().get(behind, (1.0, behind))
+    if of not in ("", unit.lower(), unit) or by == 0:
+        return None
+    return digits / by * size * (1 if sign in "+" else -1)
+
+
+def _row_meant(value: object, kind: object) -> Nearest | None:
+    """The list that a key may hold and that was meant by its numbers without brackets, or in others."""
+    if not isinstance(value, str) or not _ROW.fullmatch(value):
+        return None
+    numbers = [float(number) if "." in number else int(number) for number in re.findall(r"-?\d+(?:\.\d+)?", value)]
+    return Nearest(numbers, "meant") if _fits(numbers, kind) else None
+
+
+def _fits(value: object, kind: object) -> bool:
+    try:
+        msgspec.convert(value, kind)
+    except msgspec.ValidationError:
+        return False
+    return True
 
 
 def _form_of(owner: type[Struct], name: str) -> str:
@@ -300,11 +335,11 @@ _TYPES = {
 }
 
 
-def type_words(types: str) -> Message:
-    """msgspec's union of types in words."""
+def type_words(types: str, *, tables: bool = True) -> Message:
+    """msgspec's union of types in words; ``tables``: its objects, and its lists of them, are tables of keys."""
     names = sorted(name for name in types.split(" | ") if name != "null")
     whole = " | ".join(names)
-    if whole in _TYPES:
+    if whole in _TYPES and tables:
         return Message(_TYPES[whole])
     return either([Message(_TYPES.get(name, name)) for name in names])
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, TypeAlias
 from parts.base.lookalikes import look_alike
 from parts.base.psv import rows_of
 from parts.base.texts import Text, filled, message
+from parts.base.units import sexagesimal, written_units
 
 # those of tomllib; one that is not here is told in English
 SENTENCES = tuple(sentence for (sentence,) in rows_of(__file__, "toml_errors"))
@@ -21,8 +22,9 @@ _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*
 # a list without brackets, a number with its unit, a key that is not in Latin letters
 _BARE_WORDS = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(\"[^\"]*\"(?:\s*[,;]\s*\"[^\"]*\")+)\s*\)?\s*(?:#.*)?")
 _BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*\)?\s*(?:#.*)?")
+_ANGLE = re.compile(r"\s*([\w.-]+)\s*=\s*([-\u2212\u2013]?\d+\s*\u00b0[^#]*?)\s*(?:#.*)?")
 _UNIT = re.compile(
-    r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)(\s*)([%\"\u2033]|[^\W\d_]+(?:/[^\W\d_]+)?[²³]?)\.?\s*(?:#.*)?"
+    r"\s*([\w.-]+)\s*=\s*(-?\d+(?:[.,]\d+)?)(?:/(\d+))?(\s*)([%\"\u2033]|[^\W\d_]+(?:/[^\W\d_]+)?[²³]?)\.?\s*(?:#.*)?"
 )
 # a number, text or list that would be one but for a colon, a second sign, a lone point, a first 0, a printed minus or
 # degree, or for what other languages end a line with
@@ -219,17 +221,20 @@ def _bare_values(at: _Line) -> _Slip:
 
 def _units(at: _Line) -> _Slip:
     """A number with its unit; a letter right behind a digit may be meant for one."""
+    if (found := _ANGLE.fullmatch(at.line)) and (angle := sexagesimal(found[2])) is not None:
+        return "number_in_other_unit", {"key": found[1], "value": f"{angle:.12g}"}
     if (found := _UNIT.fullmatch(at.line)) is None:
         return None
-    key, number, apart, unit = found.groups()
+    key, number, by, apart, unit = found.groups("1")
+    value = number if by == "1" and "," not in number else f"{float(number.replace(',', '.')) / float(by):.12g}"
     if unit == "%":
-        return "a_share", {"key": key, "value": f"{float(number) / 100:.12g}"}
+        return "a_share", {"key": key, "value": f"{float(value) / 100:.12g}"}
     if look_alike(key if apart else at.line) is not None:
         return None
-    units = {name: float(size) for name, size in rows_of(__file__, "units")}
-    if size := units.get(unit.lower()):
-        return "number_in_other_unit", {"key": key, "value": f"{float(number) * size:.12g}"}
-    return "number_with_unit", {"key": key, "value": number}
+    size, of = written_units().get(unit.lower(), (1.0, ""))
+    value = value if size == 1 else f"{float(value) * size:.12g}"
+    code = "number_in_other_unit" if size != 1 and of in ("mm", "degrees") else "number_with_unit"
+    return code, {"key": key, "value": value}
 
 
 def _almost(at: _Line) -> _Slip:
