@@ -8,6 +8,7 @@ approximate, by a way of their own: read-back holds files against that, and neve
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cached_property
@@ -49,7 +50,8 @@ class FacedBody(Record, dict=True):
     number; ``own_moments``: where the kind knows them better than its faces do; ``proof``: where it can prove how far
     triangles (n, 3, 3) leave the walls, mm, bundle after bundle of its spline faces: its other surfaces are exact.
     ``own_ends``: its lowest and highest place and its greatest distance from the axis, mm, where the kind knows them.
-    ``precision``: within which its edges lie on its faces and end at their vertices, mm.
+    ``precision``: within which its edges lie on its faces and end at their vertices, mm. ``coarsest``: the greatest
+    tolerance for which its mesh has triangles of every face, mm.
     """
 
     within: Callable[[float], FacedSolid]
@@ -58,6 +60,7 @@ class FacedBody(Record, dict=True):
     proof: Proof | None = None
     own_ends: tuple[float, float, float] | None = None
     precision: float = PRECISION
+    coarsest: float = math.inf
     is_faced: ClassVar[Literal[True]] = True
 
     @cached_property

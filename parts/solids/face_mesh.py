@@ -114,10 +114,11 @@ def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> Fac
 
 def faced_mesh(body: FacedBody, tolerance: float) -> FaceMesh:
     """A closed mesh within ``tolerance`` mm of a body told by its faces; splines take their share of it."""
-    faces = body.within(_SPLINES * tolerance)
+    target = min(tolerance, body.coarsest)
+    faces = body.within(_SPLINES * target)
     if body.proof is not None:
-        return face_mesh(faces.geometry, tolerance, body.proof)
-    made = face_mesh(faces.geometry, tolerance - faces.max_error)
+        return face_mesh(faces.geometry, target, body.proof)
+    made = face_mesh(faces.geometry, target - faces.max_error)
     bound: Bound = "sampled" if "sampled" in (made.bound, faces.bound) else made.bound
     return replace(made, max_error=made.max_error + faces.max_error, bound=bound, tolerance=tolerance)
 

@@ -404,4 +404,5 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
     walls += involute_walls(*wheel.core.profiles)
     levels = wheel.core.levels()
     ends = levels[0], levels[-1], wheel.teeth.reach()
-    return FacedBody(within, tuple(walls), wheel.moments, own_ends=ends)
+    # a mesh much coarser than a module leaves the throat to its neighbours
+    return FacedBody(within, tuple(walls), wheel.moments, own_ends=ends, coarsest=wheel.teeth.hob.worm.module)
