@@ -14,6 +14,7 @@ from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import last_that_holds
+from geometry.base.record import replace as changed
 from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.kind import HoleAt, Kind, Others
 from parts.keys.base import MOST_LENGTH, MadeKeys, mm, part_mm
@@ -123,6 +124,14 @@ _BEYOND_AXLES = part_mm(
 )
 
 
+_STROKES = Meta(
+    max_length=100,
+    description="lines through points x, y that a laser engraves in single strokes; a closed one ends where it begins",
+    examples=[[[[-20.0, -30.0], [0.0, -20.0], [20.0, -30.0]]]],
+)
+_Stroke = Annotated[list[tuple[_Place, _Place]], Meta(min_length=2, max_length=4000)]
+
+
 class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="plate"):
     """Keys of ``plate``."""
 
@@ -131,6 +140,7 @@ class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="pla
     centre: Annotated[tuple[_Place, _Place], mm("x, y of the middle")] = (0.0, 0.0)
     corner_radius: Annotated[float, part_mm("rounding of the corners", least=0)] = 0.0
     beyond_axles: Annotated[float, _BEYOND_AXLES] | None = None
+    strokes: Annotated[list[_Stroke], _STROKES] = field(default_factory=list)
 
 
 def checked_outline(
@@ -384,7 +394,24 @@ class Plate(Flat[PlateSpec]):
             raise ParameterError("corner_radius", keys.corner_radius, "rounding_above_half_side", limit(most, math.inf))
         low, high = _box(keys)
         corners = [low, complex(high.real, low.imag), high, complex(low.real, high.imag)]
+        self._check_strokes(keys, low, high)
         return checked_outline(rounded([(c, keys.corner_radius) for c in corners]), keys)
+
+    def _check_strokes(self, keys: PlateSpec, low: complex, high: complex) -> None:
+        """No stroke leaves the plate."""
+        inner = (1 + 1j) * keys.corner_radius
+        for number, stroke in enumerate(keys.strokes, 1):
+            for at in (complex(*point) for point in stroke):
+                near, far = low + inner, high - inner
+                held = complex(min(max(at.real, near.real), far.real), min(max(at.imag, near.imag), far.imag))
+                if abs(at - held) > keys.corner_radius:
+                    raise ParameterError(f"strokes[{number}]", [at.real, at.imag], "stroke_leaves_plate")
+
+    def section(self, keys: PlateSpec, thing: PlateOutline, offset: float) -> OffsetRegion:
+        """The outline moved, what is engraved in it, and strokes, which no offset moves."""
+        made = super().section(keys, thing, offset)
+        strokes = tuple(tuple(complex(*point) for point in stroke) for stroke in keys.strokes)
+        return changed(made, region=changed(made.region, strokes=strokes)) if strokes else made
 
 
 PLATE = Plate()

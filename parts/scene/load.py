@@ -41,6 +41,7 @@ from parts.scene.kinds import mate_kind, part_kind
 from parts.scene.language import in_language
 from parts.scene.scene_file import ChecksSpec, ExportSpec, SceneFile, SceneInfo, default_export
 from parts.scene.steps import StepSpec, step_specs
+from parts.scene.told_files import has_files, with_files
 
 if TYPE_CHECKING:
     from parts.base.mate import MateKeys, Mating
@@ -190,10 +191,8 @@ PLAIN: dict[str, type[Struct]] = {
 
 def _validated(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     _check_tables(raw, source)
-    if any(isinstance(value, dict) for value in _named_values(raw, "motion_table")):
-        from parts.scene.motion_files import with_motions
-
-        raw = with_motions(raw, source)
+    if has_files(raw):
+        raw = with_files(raw, source)
     if language is not None:
         raw = {**raw, "scene": {**raw.get("scene", {}), "language": language}}
     raw, origins, typed = plain_tables(raw, source)
@@ -201,13 +200,6 @@ def _validated(raw: dict[str, Any], source: str, name: str, language: str | None
         scene = _scene_of(in_language(raw, source), source, name, origins)
     scene.typed = typed
     return scene
-
-
-def _named_values(raw: dict[str, Any], key: str) -> Iterator[Any]:
-    """What a key is in the parts and assemblies of a scene."""
-    parts, told = raw.get("parts"), raw.get("assemblies")
-    tables = [*(parts.values() if isinstance(parts, dict) else ()), *(told if isinstance(told, list) else ())]
-    return (table[key] for table in tables if isinstance(table, dict) and key in table)
 
 
 @contextmanager

@@ -7,44 +7,13 @@ commas or points, between commas or blanks with points; lines of words before th
 from __future__ import annotations
 
 import re
-from pathlib import Path
-from typing import Any
 
 from geometry.base.errors import ParameterError
-from parts.base.content import content_beside
-from parts.base.refusal import placed
 from parts.scene.files import text_of
 
-KEY = "motion_table"
-_MOST_BYTES = 1_000_000
+MOST_BYTES = 1_000_000
 # a thousand has a blank of any kind, a minus may be printed
 _BLANKS, _MINUS = re.compile(r"[\s'\u2019]"), str.maketrans("\u2212\u2013", "--")
-
-
-def with_motions(raw: dict[str, Any], source: str) -> dict[str, Any]:
-    """The tables of a scene with the rows of those files in place of their names.
-
-    Raises
-    ------
-    SceneError
-        A file that is not there, or a line of it that is no row.
-    """
-    made = dict(raw)
-    if isinstance(parts := raw.get("parts"), dict):
-        made["parts"] = {key: _with_rows(table, source, f"parts.{key}") for key, table in parts.items()}
-    if isinstance(told := raw.get("assemblies"), list):
-        made["assemblies"] = [_with_rows(table, source, f"assemblies[{k}]") for k, table in enumerate(told, 1)]
-    return made
-
-
-def _with_rows(table: Any, source: str, place: str) -> Any:
-    named = table.get(KEY) if isinstance(table, dict) else None
-    if not (isinstance(named, dict) and [*named] == ["file"] and isinstance(name := named["file"], str)):
-        return table
-    try:
-        return {**table, KEY: rows_of(content_beside(name, Path(source).parent, _MOST_BYTES), name)}
-    except ParameterError as refusal:
-        raise placed(source, f"{place}.{KEY}", refusal) from None
 
 
 def rows_of(raw: bytes, name: str) -> list[list[float]]:
@@ -55,8 +24,8 @@ def rows_of(raw: bytes, name: str) -> list[list[float]]:
     ParameterError
         ``file``: it is too large, has no row, or a line that is none.
     """
-    if len(raw) > _MOST_BYTES:
-        raise ParameterError("file", name, "too_large_step", None, most=_MOST_BYTES)
+    if len(raw) > MOST_BYTES:
+        raise ParameterError("file", name, "too_large_step", None, most=MOST_BYTES)
     try:
         text = text_of(raw)
     except UnicodeDecodeError:

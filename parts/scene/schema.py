@@ -16,9 +16,9 @@ from parts.recipes.registry import RECIPES
 from parts.scene.defaults import default_names
 from parts.scene.instances import DriveSpec, InstanceTable
 from parts.scene.language import WORDS, WORDS_OF_PARTS
-from parts.scene.motion_files import KEY
 from parts.scene.scene_file import ChecksSpec, ExportSpec, SceneInfo
 from parts.scene.steps import StepSpec
+from parts.scene.told_files import KEYS
 
 
 def scene_schema() -> str:
@@ -53,8 +53,10 @@ def scene_schema() -> str:
     file = {"type": "object", "properties": {"file": {"type": "string"}}, "required": ["file"],
             "additionalProperties": False}  # fmt: skip
     for table in schema["$defs"].values():
-        if KEY in table.get("properties", {}):
-            table["properties"][KEY]["anyOf"].append(file)
+        properties = table.get("properties", {})
+        for key in (key for key in KEYS if key in properties):
+            own = properties[key]
+            properties[key] = {**own, "anyOf": [*own["anyOf"], file]} if "anyOf" in own else {"anyOf": [own, file]}
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
     recipes = [(entry.keys.__name__, WORDS) for entry in RECIPES.values()]

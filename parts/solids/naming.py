@@ -44,6 +44,9 @@ def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.
 
     region = section.region
     clear = shapely.buffer(_material(exact.region), -(STROKE / 2 + _CLEAR))
+    if region.strokes:
+        drawn = [[(p.real, p.imag) for p in stroke] for stroke in region.strokes]
+        clear = shapely.difference(clear, shapely.buffer(shapely.MultiLineString(drawn), STROKE + _CLEAR))
     widest = 0.0 if clear.is_empty else shapely.maximum_inscribed_circle(clear, _CHORDS).length
     strokes = _inside(clear, widest, text)
     if strokes is not None:
