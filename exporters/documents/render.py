@@ -118,7 +118,8 @@ table{border-collapse:collapse;width:100%;margin-bottom:1.5rem}td,th{border-bott
 text-align:left;vertical-align:top}td.r{white-space:nowrap;font-weight:bold}td.f{font-style:italic}
 td.f{width:46%}sub{line-height:0;font-size:.7em}tr{page-break-inside:avoid}
 span.w{color:#a00}h2{font-size:1.15rem;margin:1.5rem 0 .4rem}svg{max-width:100%;height:auto}
-@page{margin:12mm}@media print{body{margin:0;max-width:none;font-size:11px}}"""
+@page{margin:12mm}@media print{body{margin:0;max-width:none;font-size:11px}figure{margin:0;page-break-inside:avoid}
+svg{max-height:250mm}}"""
 
 
 def _html(sheet: Sheet, told: Words) -> str:

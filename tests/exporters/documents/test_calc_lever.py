@@ -602,3 +602,16 @@ def test_limits_of_the_crank_have_their_formula(keys: tuple[str, ...], limits: i
     assert len(told) == limits
     for step in told:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-12, abs=1e-9)
+
+
+def test_a_printed_picture_stays_on_its_page() -> None:
+    """Its plans stand below each other, 2056 by 976: on A4 across the page, 392 mm high, a plan was cut in two."""
+    page = calculate("lever", ["assignment=4", "variant=2", "masses.5=40", "resistance=1500"], "html", "en")
+    ((wide, high),) = re.findall(r'<svg [^>]*viewBox="0 0 (\d+) (\d+)"', page)
+    (margin,) = re.findall(r"@page{margin:(\d+)mm}", page)
+    print_rules = page.partition("@media print{")[2].partition("</style>")[0]
+    (most,) = re.findall(r"svg{max-height:(\d+)mm}", print_rules)
+    assert (210 - 2 * int(margin)) * int(high) / int(wide) > 297
+    # A4 and Letter
+    assert int(most) <= min(297, 279) - 2 * int(margin)
+    assert "figure{margin:0;page-break-inside:avoid}" in print_rules
