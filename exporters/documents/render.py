@@ -18,7 +18,7 @@ from parts.pages.symbols import subscripts, symbol_text
 from parts.pages.tables import csv_table, html_table, markdown_table, plain_table, table_data
 from parts.pages.text import printed_text, result_text, source_text, step_name
 
-_GEARS = {1: "first", 2: "second"}
+_GEARS = "", "first", "second", "third", "fourth"
 # what speaks a language, and what is numbers alone
 SPOKEN = ("text", "md", "html", "json")
 FORMATS = (*SPOKEN, "csv")

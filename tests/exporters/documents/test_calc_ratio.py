@@ -72,6 +72,12 @@ def test_the_page_tells_the_fewest_teeth_and_355_of_113(capsys: pytest.CaptureFi
     assert page["values"]["reference_centre_distance"] == 58.0
     assert run("calc", "ratio", "ratio=3.14159265", "least_teeth=113", "most_teeth=300", "--format", "json") == 2
     assert "2.65486725664 works" in capsys.readouterr().err
+    # the teeth of the second pair ended in a traceback
+    assert run("calc", "ratio", "ratio=12.368266", "stages=2", "--format", "json") == 0
+    teeth = json.loads(capsys.readouterr().out)["values"]["number_of_teeth"]
+    assert [*teeth] == ["first", "second", "third", "fourth"]
+    ratio = teeth["second"] * teeth["fourth"] / (teeth["first"] * teeth["third"])
+    assert abs(ratio / 12.368266 - 1) <= 0.005
     assert run("calc", "ratio", "ratio=12.368266", "stages=2", "--format", "csv") == 0
     assert any(line.startswith("19.0,47.0,12.0,60.0,") for line in capsys.readouterr().out.splitlines())
 
