@@ -51,7 +51,7 @@ class Known(Record):
 
 
 class Step(Record):
-    """One line of a calculation; ``gear`` is 0 (neither) or its number; ``inputs`` is what its formula's keys stood for.
+    """One line of a calculation; ``gear`` is 0 (neither) or its number; ``inputs`` are what its formula stood for.
 
     ``of``: which of several steps of the same name it is; ``called``: what it is here, where the term's name says too
     much or too little; ``given``: no result of the calculation.
