@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 from operator import attrgetter
 
 import numpy as np
@@ -18,6 +19,7 @@ from parts.drawing.extent import farthest
 from parts.drawing.wheel_views import axis_along, circle_of
 from parts.drawing.working import (
     AXIS,
+    THIN,
     VISIBLE,
     Note,
     PartDrawing,
@@ -58,6 +60,7 @@ def part_drawing(
     slots = [hole for hole in region.holes if circle_from(hole) is None]
     for profile in (*slots, *region.marks):
         strokes += [(VISIBLE, s.curve) for s in profile.segments()]
+    strokes += [(THIN, Line(a, b)) for line in region.strokes for a, b in pairwise(line)]
     strokes += [(AXIS, circle_of(one.circle / 2)) for one in circles]
     loose, grids = _loose(round_holes, circles), _grids(subject.part)
     gridded = [at for one in grids for at in one.centres()]

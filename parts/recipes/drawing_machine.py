@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 # mm: walls about holes; between what moves; of slots beyond the way of a pin; how much shorter dowels are than what
 # they go through; of the table about the picture; of the frame about its pins; roundings
 _WALL, _APART, _SLACK, _SHORT, _ABOUT, _BESIDE, _CORNER = 3.0, 1.0, 1.0, 0.5, 8.0, 12.0, 5.0
+# mm: wall of a roller about its bore
+_RIM = 1.0
 # even places of the picture's line, beside its corners
 _ROWS = 720
 # mm: a larger prime circle is none to be made; the handle above its crank, and that where nobody says it
@@ -93,6 +95,8 @@ class _Making(Making):
         check_play(keys.clearance, keys.axle_diameter, keys.guide_pin_diameter, keys.roller_pin_diameter)
         self.slot = keys.guide_pin_diameter + keys.clearance
         self.half, self.ring = keys.slide_width / 2, keys.guide_pin_diameter / 2 + _WALL
+        if keys.follower_radius < (least := (keys.roller_pin_diameter + keys.clearance) / 2 + _RIM):
+            raise ParameterError.beyond("follower_radius", keys.follower_radius, "no_wall_beside_holes", least)
         holes = max(self.slot, keys.roller_pin_diameter, keys.pen_diameter)
         if keys.slide_width < (least := holes + 2 * _WALL):
             raise ParameterError.beyond("slide_width", keys.slide_width, "no_wall_beside_holes", least)
@@ -198,7 +202,7 @@ class _Making(Making):
 
     def _crank_end(self) -> float:
         """Radius of both round ends of the crank, mm."""
-        return self.keys.axle_diameter / 2 + 2 * _WALL
+        return max(self.keys.axle_diameter, self.keys.guide_pin_diameter) / 2 + 2 * _WALL
 
     def all(self) -> Expansion:
         """Every part, as it stands on what is made before, and the turn of the crank."""
