@@ -93,7 +93,8 @@ class Wheel(Record):
     ``outline``: the exact one, None: it has another at each height; ``crown``: of a worm wheel; ``rounds``: circles
     about the axis that are shown, with their sizes; ``stands``: its face is drawn with the bore upright; ``runs``: its
     outside, which is round, is a working surface; ``grooves``: between rows of teeth;
-    ``bevel``: of its outer edges, radially and along the axis, in place of chamfers.
+    ``bevel``: of its outer edges, radially and along the axis, in place of chamfers; ``kept``: directions between which
+    teeth stand where they do not all round, rad, the first turned upwards.
     """
 
     shape: WheelShape
@@ -108,6 +109,12 @@ class Wheel(Record):
     runs: bool = False
     grooves: tuple[Groove, ...] = ()
     bevel: tuple[float, float] | None = None
+    kept: tuple[tuple[float, float], ...] = ()
+
+    def on_side(self, way: int) -> Wheel:
+        """The same as its half above or below the axis has it: without teeth where it has none."""
+        bare = self.kept and self.root is not None and self.tip[way < 0] <= self.root + _NONE
+        return replace(self, root=None, pitch=None) if bare else self
 
     @property
     def reference(self) -> float | None:
@@ -129,6 +136,8 @@ class Wheel(Record):
     @property
     def turn(self) -> float:
         """By how much its face and its section are turned, rad: for its bore to stand upright, where it may."""
+        if self.kept:
+            return _UP - sum(self.kept[0]) / 2
         bore = self.holes.bore
         return _UP - bore.angle if self.stands and bore is not None and not isinstance(bore, RoundBore) else 0.0
 
@@ -362,13 +371,14 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         def placed(loop: Loop, way: int = way) -> Loop:
             return loop if way > 0 else below(loop)
 
-        loop, solid, root = _loops(wheel, bore, tip)
+        half = wheel.on_side(way)
+        loop, solid, root = _loops(half, bore, tip)
         hatched.append(tuple(placed(solid)))
         strokes += outlined(placed(loop))
         strokes += [(VISIBLE, line) for line in placed((*root, *seen_edges(loop, cut=True)))]
         strokes += [(VISIBLE, line) for line in _rim_behind(wheel, way)]
-        if wheel.reference is not None:
-            axes += [level(row, way * wheel.reference) for row in wheel.rows()]
+        if half.reference is not None:
+            axes += [level(row, way * half.reference) for row in wheel.rows()]
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in (*edges, *spline.roots)]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
@@ -392,7 +402,7 @@ def _face_spots(wheel: Wheel) -> tuple[Spot, ...]:
     """Places on the upper end face of the rim above and below the axis, between its inner edge and teeth or outside."""
     shape, bores = wheel.shape, bore_radii(wheel.holes.bore)
     inner = max(*bores, shape.hub.diameter / 2 if shape.hub else 0.0, shape.web.rim_diameter / 2 if shape.web else 0.0)
-    outer = min(wheel.tip) if wheel.root is None else wheel.root
+    outer = min(*wheel.tip, wheel.root or math.inf)
     return spots(complex(shape.face_width, outer), complex(shape.face_width, inner), 1 + 0j)
 
 
@@ -549,13 +559,13 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     strokes: list[Stroke] = []
     if wheel.outline is None:
         strokes += [(VISIBLE, circle_of(tip))]
-    elif wheel.pitch is None:
+    elif wheel.pitch is None or wheel.kept:
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in wheel.outline.segments()]
     else:
         count = min(subject.wishes.teeth, wheel.outline.count)
         strokes += exact_teeth(wheel.outline, count, turn, tip) if count else [(VISIBLE, circle_of(tip))]
     if wheel.pitch is not None:
-        strokes.append((AXIS, circle_of(wheel.pitch)))
+        strokes += [(AXIS, arc) for arc in pitch_arcs(wheel.pitch, wheel.kept, turn)]
     shape, at = wheel.shape, levels(wheel.shape)
     if shape.hub is not None and at.hub[1] > at.web[1]:
         strokes.append((VISIBLE, circle_of(shape.hub.diameter / 2)))
@@ -586,13 +596,18 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     return View(tuple(strokes), (), axes, sizes, tuple(rounds), tuple(notes), from_right=True)
 
 
+def pitch_arcs(radius: float, kept: Sequence[tuple[float, float]], turn: float) -> list[Arc]:
+    """A reference circle where teeth stand, ``kept`` from one direction to another, or all round."""
+    return [Arc(0j, radius, low + turn, high - low) for low, high in kept] or [circle_of(radius)]
+
+
 def _face_axes(wheel: Wheel) -> tuple[Line, Line]:
     """The axes of a face: from side to side of it, and of the circles about it that are shown."""
     rim = max(wheel.tip)
-    if wheel.stands or wheel.outline is None:
+    if (wheel.stands and not wheel.kept) or wheel.outline is None:
         return axis_cross(rim)
     least = max((one.radius for one in wheel.rounds), default=0.0)
-    curves = [s.curve for s in wheel.outline.segments()]
+    curves = [s.curve for s in wheel.outline.placed(Placement2(wheel.turn)).segments()]
     left, right, low, high = (max((farthest(curves, way) / way).real, least) for way in (-1, 1, -1j, 1j))
     return Line(complex(-left), complex(right)), Line(-1j * low, 1j * high)
 
@@ -754,18 +769,22 @@ def _corner(centre: complex, radius: float, angles: tuple[float, ...]) -> Round:
     return Round("bore.corner_radius", centre, radius, "R", is_radius=True, angles=angles)
 
 
-def ring_section(width: float, radii: tuple[float, float, float], holes: HubHoles, subject: Subject) -> View:
+def ring_section(
+    width: float, radii: tuple[float, float, float], holes: HubHoles, subject: Subject, other: float | None = None
+) -> View:
     """The axial section of a ring with holes in its rim.
 
-    ``radii``: of the edge that is seen inside, of where the material of the plane begins, of the outside, mm.
+    ``radii``: of the edge that is seen inside, of where the material of the plane begins, of the outside, mm;
+    ``other``: of both edges below the axis, where it is another there.
     """
-    seen, begins, outer = radii
-    solid = block(0.0, width, begins, outer)
-    loop = block(0.0, width, seen, outer)
+    outer = radii[2]
     strokes: list[Stroke] = []
-    hatched: list[Loop] = [solid, below(solid)]
+    hatched: list[Loop] = []
     axes = [Line(0j, complex(width))]
     for way in (1, -1):
+        seen, begins = radii[:2] if way > 0 or other is None else (other, other)
+        solid, loop = block(0.0, width, begins, outer), block(0.0, width, seen, outer)
+        hatched.append(solid if way > 0 else below(solid))
         side = loop if way > 0 else below(loop)
         strokes += [*outlined(side), (VISIBLE, level((0.0, width), way * begins))]
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]

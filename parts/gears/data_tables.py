@@ -30,7 +30,7 @@ _PAGES: Mapping[str, Callable[[dict[str, object]], Sheet]] = {
     "rack": rack_page.sheet,
 }
 # steps of the calculation: of teeth, of what a rack or a cutter of one's own has
-_TEETH = ("module", "number_of_teeth", "helix_angle_deg")
+_TEETH = ("module", "number_of_teeth", "sector_teeth", "sector_runs", "helix_angle_deg")
 _OWN = ("pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient", "tip_radius_coefficient")
 _CUTTER = ("pressure_angle_deg", "addendum_coefficient", "cutter_teeth", "cutter_shift", "cutter_addendum",
            "cutter_tip_rounding", "dedendum_coefficient", "root_rounding_coefficient")  # fmt: skip

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.curves.curve import Curve, end_point, start_point
-from geometry.curves.line_arc import Line
+from geometry.curves.line_arc import Arc, Line
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
+from geometry.plane.profile import Label, Profile
 from geometry.solids.bores import RoundBore
 from parts.drawing.breaks import Break, broken
 from parts.drawing.directions import directions
@@ -30,6 +32,7 @@ from parts.drawing.wheel_views import (
     hole_round,
     keyway_edges,
     level,
+    pitch_arcs,
     ring_face,
     ring_section,
     spline_cut,
@@ -45,10 +48,12 @@ from parts.drawing.working import (
     Cut,
     Note,
     PartDrawing,
+    Round,
     Size,
     Stroke,
     Subject,
     View,
+    arc_angles,
     requirements,
 )
 from parts.gears.noncircular_gear.part import NoncircularGearSpec
@@ -84,7 +89,15 @@ def part_drawing(subject: Subject) -> PartDrawing:
     match subject.part.keys:
         case SpurGearSpec() as keys:
             views = wheel_views(_spur(keys, subject), subject)
-            more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_tooth", keys.number_of_teeth)
+            if thing.sector is not None:
+                outline = subject.part.section(0.0).region.outer
+                views = views[0], views[1].plus(rounds=_sector_rounds(thing, outline)), *views[2:]
+            alike = keys.number_of_teeth if thing.sector is None else thing.sector.runs
+            more = (
+                _engraved(keys, subject)
+                + _sector_words(thing, subject)
+                + directions(thing.holes, subject, "zero_tooth", alike)
+            )
         case NoncircularGearSpec() as keys:
             shape = shape_of(keys)
             circles = ("inner_root_diameter", "outer_tip_diameter")
@@ -95,7 +108,12 @@ def part_drawing(subject: Subject) -> PartDrawing:
             more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
         case RingGearSpec() as keys:
             views = _ring(keys, thing, subject)
-            more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_space", keys.number_of_teeth)
+            alike = keys.number_of_teeth if thing.sector is None else thing.sector.runs
+            more = (
+                _engraved(keys, subject)
+                + _sector_words(thing, subject)
+                + directions(thing.holes, subject, "zero_space", alike)
+            )
         case RackSpec() as keys:
             views, more = _rack(keys, thing, subject), _ends(keys, subject)
         case WormSpec() as keys:
@@ -151,7 +169,46 @@ def _spur(keys: SpurGearSpec, subject: Subject) -> Wheel:
     gear: SpurGear = subject.part.thing
     shape = shape_of(keys)
     tip, outline = gear.tip_radius, subject.part.section(0.0).region.outer
-    return Wheel(shape, gear.holes, (tip, tip), outline, gear.root_radius, gear.reference_radius)
+    kept = _kept(gear)
+    # below the axis stands the rest, or another run of an even number
+    low = tip if not kept or len(kept) % 2 == 0 else gear.core_radius
+    return Wheel(shape, gear.holes, (tip, low), outline, gear.root_radius, gear.reference_radius, kept=kept)
+
+
+def _kept(gear: SpurGear | RingGear) -> tuple[tuple[float, float], ...]:
+    """Directions between which the teeth of a sector stand, run by run, half a pitch more on either side, rad."""
+    sector, pitch = gear.sector, gear.pitch_angle
+    if sector is None:
+        return ()
+    low, high = (sector.centre(k, pitch, gear.sign) for k in (0, sector.teeth - 1))
+    step = math.tau / sector.runs
+    return tuple((low - pitch / 2 + step * k, high + pitch / 2 + step * k) for k in range(sector.runs))
+
+
+def _sector_rounds(gear: SpurGear | RingGear, toothed: Profile) -> list[Round]:
+    """The sizes of a sector on its face, whose run of teeth stands upwards: diameters and corners.
+
+    The section tells the tip diameter of an even number of runs.
+    """
+    sector, (low, high) = gear.sector, _kept(gear)[0]
+    assert sector is not None
+    half, pitch = math.degrees(high - low - gear.pitch_angle) / 2, math.degrees(gear.pitch_angle)
+    on_teeth = tuple(90 + way * (half - pitch * k) for k in range((sector.teeth + 1) // 2) for way in (-1, 1))
+    found = [Round("tip_diameter", 0j, gear.tip_radius, angles=on_teeth)] if sector.runs % 2 else []
+    if sector.stands_off:
+        name, rest = "sector.hub_diameter" if sector.is_cut else "sector.blank_diameter", 90 + 180 / sector.runs
+        found.append(Round(name, 0j, gear.core_radius, angles=tuple(rest + k for k in (0, 10, -10, 20, -20))))
+    if sector.corner_radius:
+        turn = Placement2((math.pi - low - high) / 2)
+        arcs = (s.curve for s in toothed.period if isinstance(s.curve, Arc) and s.label is Label.BODY)
+        corner, name = next(arcs).placed(turn), "sector.corner_radius"
+        found.append(Round(name, corner.centre, corner.radius, "R", is_radius=True, angles=arc_angles(corner)))
+    return found
+
+
+def _sector_words(gear: SpurGear | RingGear, subject: Subject) -> tuple[str, ...]:
+    """Where the rim of a sector ends, which its sizes do not tell."""
+    return (subject.words("sector_rim"),) if gear.sector is not None and gear.sector.stands_off else ()
 
 
 def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:
@@ -167,23 +224,35 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     """Axial section and face of a ring."""
     width, outer, root = keys.face_width, ring.outer_radius, ring.root_radius
     tip, pitch, wishes = ring.tip_radius, ring.reference_radius, subject.wishes
-    section = ring_section(width, (tip, root, outer), ring.holes, subject)
-    axes = [level((0.0, width), way * pitch) for way in (1, -1)]
+    kept = _kept(ring)
+    turn = math.pi / 2 - sum(kept[0]) / 2 if kept else 0.0
+    holes = replace(ring.holes, round_holes=tuple(replace(g, start=g.start + turn) for g in ring.holes.round_holes))
+    bare = len(kept) % 2 == 1
+    section = ring_section(width, (tip, root, outer), holes, subject, ring.core_radius if bare else None)
+    axes = [level((0.0, width), way * pitch) for way in ((1,) if bare else (1, -1))]
     told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
-    rough = Note(complex(width, -pitch), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
-    sizes = section.sizes[0], told, *section.sizes[1:]
+    rough = Note(
+        complex(width, pitch if bare else -pitch), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True
+    )
+    sizes = section.sizes[0], *(() if bare else (told,)), *section.sizes[1:]
     section = replace(
         section, axes=(*section.axes, *axes), sizes=sizes, notes=(rough,),
-        rim=spots(1j * tip, complex(width, tip), -1j), face=spots(complex(width, outer), complex(width, root), 1 + 0j),
+        rim=() if bare else spots(1j * tip, complex(width, tip), -1j),
+        face=spots(complex(width, outer), complex(width, root), 1 + 0j),
     )  # fmt: skip
     region = subject.part.section(0.0).region
-    toothed = next(p for p in region.holes if p.count == ring.number_of_teeth)
+    toothed = region.holes[0]
     count = min(wishes.teeth, ring.number_of_teeth)
     teeth = exact_teeth(toothed, count, 0.0, tip) if count else [(VISIBLE, circle_of(tip))]
-    marks = [(THIN, s.curve) for mark in region.marks for s in mark.segments()]
-    face = ring_face(outer, ring.holes, subject)
+    placed = Placement2(turn)
+    if kept:
+        teeth = [(VISIBLE, s.curve.placed(placed)) for s in toothed.segments()]
+    marks = [(THIN, s.curve.placed(placed)) for mark in region.marks for s in mark.segments()]
+    face = ring_face(outer, holes, subject)
     outside, *others = face.strokes
-    return section, replace(face, strokes=(outside, (AXIS, circle_of(pitch)), *teeth, *others, *marks))
+    pitches = [(AXIS, arc) for arc in pitch_arcs(pitch, kept, turn)]
+    face = replace(face, strokes=(outside, *pitches, *teeth, *others, *marks))
+    return section, face.plus(rounds=_sector_rounds(ring, toothed)) if kept else face
 
 
 def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:

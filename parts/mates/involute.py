@@ -200,7 +200,7 @@ class GearMating(Toothed):
         from geometry.kinematics.mechanism import Rolling
 
         assert self.rolls is not None
-        moved = self.steps.mesh.teeth * self.steps.mesh.runs
+        moved = self.steps.moved * self.steps.mesh.runs
         return (Rolling(self.rolls, self.first, self.second, (moved, self.teeth[1]), sense=self.sense),)
 
     def _turned(self, first: Pose, second: Pose, gear: SpurGear | RingGear) -> Standing:

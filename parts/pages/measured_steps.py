@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record
 from geometry.base.tolerance import is_told
@@ -122,6 +122,15 @@ def _spans(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     best = measurement.best_span(gear, asked.helix)
     if asked.spanned is not None:
         best = measurement.span(gear, asked.spanned, asked.helix)
+    if gear.sector is not None:
+        # a ring's span is over the spaces between its teeth
+        most = gear.sector.teeth - (side is _INNER)
+        if asked.spanned is not None and asked.spanned > most:
+            cure = limit(most, asked.spanned) if most > 1 - (side is _INNER) else None
+            raise ParameterError(side.spanned, asked.spanned, "span_beyond_sector", cure, most=most)
+        if best is not None and best.teeth > most:
+            shorter = measurement.span(gear, most, asked.helix) if most > 0 else None
+            best = shorter if shorter is not None and shorter.touches_flanks else None
     if best is None:
         page.note("no span touches the flanks of this gear")
         return
@@ -205,6 +214,12 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     """Pins, balls where the teeth are helical, and when pins give the same there."""
     tool, helix = "ball" if asked.helix else "pin", asked.helix
     size = f"{side.size}_{tool}s"
+    if gear.sector is not None and not gear.sector.has_opposite_spaces(gear.number_of_teeth):
+        for key, value in (("pin_diameter", asked.pin_diameter), (f"measured_{side.size}_pins", asked.measured_size)):
+            if value is not None:
+                raise ParameterError(key, value, "no_opposite_spaces", Nearest(None))
+        page.note("no two spaces of the sector stand opposite each other: nothing is measured over pins or balls")
+        return
     page.section(side.titles[bool(helix)])
     try:
         best = measurement.best_pin_diameter(gear, helix)

@@ -30,6 +30,12 @@ class Sector(Record):
         """Whether the rest has corners of its own."""
         return self.is_cut or self.blank_diameter is not None
 
+    def has_opposite_spaces(self, number_of_teeth: int) -> bool:
+        """Whether two whole spaces stand as nearly opposite as those of a gear with all of its teeth."""
+        pitches = number_of_teeth // self.runs
+        spaces = {(run * pitches + k) % number_of_teeth for run in range(self.runs) for k in range(self.teeth - 1)}
+        return any((space + number_of_teeth // 2) % number_of_teeth in spaces for space in spaces)
+
     def core_radius(self, root_radius: float) -> float:
         """Radius of the circle of the rest about the axis, mm."""
         rest = self.hub_diameter if self.is_cut else self.blank_diameter

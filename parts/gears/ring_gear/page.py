@@ -21,6 +21,8 @@ from parts.gears.spur_gear.page import (
     least_tip_step,
     normal_tip_step,
     section_data,
+    sector_data,
+    sector_steps,
     shift_data,
     thickness_steps,
     thinning_data,
@@ -72,6 +74,7 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
     page.section("Given")
     section_data(page, keys.module, math.radians(keys.pressure_angle_deg), helix)
     page.add("number_of_teeth", ring.number_of_teeth)
+    sector_data(page, ring)
     shift_data(page, keys.profile_shift_coefficient, helix)
     page.add("addendum_coefficient", keys.addendum_coefficient)
     thinning_data(page, ring, helix, "+")
@@ -103,6 +106,7 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     page.add("root_form_diameter", ring_limits.root_form_diameter(ring), "", _ISO)
     heights = ring.reference_radius - ring.tip_radius, ring.root_radius - ring.reference_radius
     height_steps(page, heights, ("({d} - {d_a}) / 2", "({d_f} - {d}) / 2"))
+    sector_steps(page, ring)
 
 
 def _thicknesses(page: Sheet, ring: RingGear, helix: float, diameter: float | None) -> None:

@@ -100,6 +100,7 @@ def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, inde
     if index < 2:
         section_data(page, normal.module, rack.pressure_angle, helix)
     page.add("number_of_teeth", gear.number_of_teeth, gear=index)
+    sector_data(page, gear, index)
     shift_data(page, normal.profile_shift_coefficient, helix, index)
     page.add("addendum_coefficient", rack.addendum, gear=index)
     if normal.cutter is None:
@@ -112,6 +113,21 @@ def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, inde
         page.add("relief_depth_coefficient", rack.relief.depth, gear=index)
         page.add("relief_height_coefficient", rack.relief.height, gear=index)
     thinning_data(page, gear, helix, "-", index)
+
+
+def sector_data(page: Sheet, gear: SpurGear | RingGear, index: int = 0) -> None:
+    """The teeth that a sector keeps of all; those of each run of several."""
+    if gear.sector is not None:
+        page.add("sector_teeth", gear.sector.teeth, gear=index)
+        if gear.sector.runs > 1:
+            page.add("sector_runs", gear.sector.runs, gear=index)
+
+
+def sector_steps(page: Sheet, gear: SpurGear | RingGear) -> None:
+    """The angle that a sector's teeth take, and the arc on the reference circle: what they move a rack by."""
+    if gear.sector is not None:
+        page.add("sector_angle_deg", math.degrees(gear.sector.teeth * gear.pitch_angle), "360 * {z_s} / {z}")
+        page.add("sector_arc", gear.sector.teeth * math.pi * gear.module, "{z_s} * {p}")
 
 
 def thinning_data(page: Sheet, gear: SpurGear | RingGear, helix: float, sign: str, index: int = 0) -> None:
@@ -180,6 +196,7 @@ def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.add("root_form_diameter", limits.root_form_diameter(gear), "", "ISO 21771")
     heights = gear.tip_radius - gear.reference_radius, gear.reference_radius - gear.root_radius
     height_steps(page, heights, ("({d_a} - {d}) / 2", "({d} - {d_f}) / 2"))
+    sector_steps(page, gear)
 
 
 def generated_root(page: Sheet, gear: SpurGear | RingGear, source: str, out: str, back: str) -> None:

@@ -69,7 +69,7 @@ DAILY = {
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
     "thesis_internal_pair": "dxf", "tmm42": "svg", "wedge_cam": "stl", "yoke_cam": "svg",
     "james": "motion", "james_laser": "svg", "james_print": "glb", "compound_two_stage": "3mf",
-    "worm": "dxf", "lesson_3": "pdf", "power_table_laser": "csv",
+    "sector_gears": "svg", "worm": "dxf", "lesson_3": "pdf", "power_table_laser": "csv",
 }  # fmt: skip
 QUICK = (("practicum_flat_cam", "stl"), ("practicum_pair", "dxf"))
 # sets like those: built whole among the heavy ones, checked with their recipe; coupons, lessons, ovals and worm wheels

@@ -420,3 +420,36 @@ def test_three_lines_show_which_way_the_thread_of_a_worm_runs(hand: str, starts:
     steps = [b[0] - a[0] for a, b in pairwise(marks)]
     assert steps[0] == pytest.approx(steps[1], abs=1e-5)
     assert steps[0].real > 0.5
+
+
+def test_a_sector_is_drawn_with_its_teeth_upwards() -> None:
+    """The face has its outline as the files have it, turned; the section has teeth above and the hub below."""
+    keys = GEAR | {
+        "number_of_teeth": 40,
+        "bore_diameter": 8.0,
+        "sector": {"teeth": 9, "rest": "cut", "corner_radius": 1.0},
+    }
+    section, face = drawing_of(keys).views
+    assert {r.name: r.value for r in face.rounds} == pytest.approx(
+        {"tip_diameter": 84.0, "sector.hub_diameter": 18.75, "sector.corner_radius": 1.0}
+    )
+    assert "tip_diameter" not in sizes(section)
+    heights = {round(y, 6) for ends in straight(section, VISIBLE) for y in (p.imag for p in ends)}
+    # tips, roots and bore above; bore and hub below, half of the pitch circle's line
+    assert heights - {0.0} == {42.0, 37.5, 4.0, -4.0, -9.375}
+    axes = {near(line.start, line.end) for line in section.axes if isinstance(line, Line)}
+    assert near(40j, 10 + 40j) in axes
+    assert near(-40j, 10 - 40j) not in axes
+    (pitch,) = (c for layer, c in face.strokes if layer == AXIS and isinstance(c, Arc))
+    assert (pitch.radius, math.degrees(pitch.start_angle), math.degrees(pitch.sweep)) == pytest.approx((40, 49.5, 81))
+    tips = [c for layer, c in face.strokes if layer == VISIBLE and isinstance(c, Arc) and abs(c.radius - 42) < 1e-9]
+    middles = sorted(math.degrees(t.start_angle + t.sweep / 2) for t in tips)
+    assert middles == pytest.approx([90 + 9 * k for k in range(-4, 5)])
+
+
+def test_a_sector_of_a_ring_is_drawn_upwards_too() -> None:
+    """Below the axis its section has the blank alone."""
+    section, face = drawing_of(RING | {"sector": {"teeth": 7, "blank_diameter": 112.0}}).views
+    assert {r.name for r in face.rounds} == {"tip_diameter", "sector.blank_diameter"}
+    low = {round(p.imag, 6) for ends in straight(section, VISIBLE) for p in ends if p.imag < 0}
+    assert low == {-56.0, -65.0}
