@@ -198,10 +198,28 @@ class _Page:
             off = abs(exact(short) - found) * 100
             return Nearest(short if off <= exact(keys.ratio_tolerance_percent) * abs(found) / 2 else float(found))
 
-        sets = found_sets(within(exact(keys.ratio_tolerance_percent)))
-        if not sets:
-            raise ParameterError("ratio", keys.ratio, "no_planetary_set", cure)
-        return sets
+        asked = within(exact(keys.ratio_tolerance_percent))
+        if sets := found_sets(asked):
+            return sets
+        if other := self._elsewhere(asked):
+            raise ParameterError("ratio", keys.ratio, "planetary_set_elsewhere", cure, other=other)
+        raise ParameterError("ratio", keys.ratio, "no_planetary_set", cure)
+
+    def _elsewhere(self, asked: Search) -> str | None:
+        """Other keys by which sets keep the wish: another scheme, other links, or both with the carrier driving."""
+        keys = self.keys
+        links = [(driver, held) for driver in LINKS for held in LINKS if driver != held]
+        tried = [(scheme, keys.driver, keys.held) for scheme in SCHEMES]
+        tried += [(keys.scheme, *pair) for pair in links]
+        tried += [(scheme, "carrier", "second") for scheme in SCHEMES]
+        for scheme, driver, held in tried:
+            if keys.second_module is not None and not SCHEMES[scheme].double:
+                continue
+            driven = next(link for link in LINKS if link not in (driver, held))
+            if found_sets(replace(asked, scheme=SCHEMES[scheme], driver=driver, driven=driven)):
+                words = {"scheme": scheme, "driver": driver, "held": held}
+                return ", ".join(f'{key} = "{word}"' for key, word in words.items() if word != getattr(keys, key))
+        return None
 
     def _given(self, teeth: list[int]) -> PlanetarySet:
         """The set that was typed."""

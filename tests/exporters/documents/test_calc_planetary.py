@@ -216,6 +216,25 @@ def test_the_ratio_that_a_refusal_names_works() -> None:
     assert calculated(f"ratio={ratio}")["values"]["sets_found"] >= 1
 
 
+@pytest.mark.parametrize(
+    ("ratio", "keys"),
+    [
+        # two rims have more than one; two meshes alike turn the output back, and have most where the carrier drives
+        (40, ["scheme=one_external_one_internal"]),
+        (-5, ["scheme=david"]),
+        (100, ["scheme=two_internal", "driver=carrier"]),
+    ],
+)
+def test_a_ratio_that_a_scheme_does_not_have_leads_to_one_that_has(ratio: float, keys: list[str]) -> None:
+    """Where no tolerance helped, nothing was told but another ratio: 12.46 for 40."""
+    told = refused(f"ratio={ratio}").partition("some have it with ")[2].partition(";")[0]
+    assert [key.replace('"', "").replace(" = ", "=") for key in told.split(", ")] == keys
+    row = calculated(f"ratio={ratio}", *keys)["sets"][0]
+    # Willis: w1 / w3 with the carrier held is above 0 where both meshes are alike
+    carried = row["z_2"] * row["z_3"] / (row["z_1"] * row["z_2'"]) * (-1 if "one_" in keys[0] else 1)
+    assert (1 - carried) ** (1 if len(keys) == 1 else -1) == pytest.approx(ratio, rel=5e-3)
+
+
 def test_a_ratio_is_told_in_six_digits_where_the_tolerance_takes_them() -> None:
     """Before: 12.4615384615, which is 162/13."""
     assert refused("ratio=1000").endswith("; 12.4615 works")
