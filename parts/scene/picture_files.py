@@ -62,7 +62,7 @@ def picture_of(raw: bytes, name: str) -> list[list[float]]:
             lines.append(([a * z + b * z.conjugate() + c for z in points], closed))
     lines = [(points, closed) for points, closed in lines if len(points) > 1]
     if len(lines) != 1 or others:
-        code = "picture_of_several_lines" if lines else "no_line_in_picture"
+        code = "picture_of_several_lines" if lines or others else "no_line_in_picture"
         raise ParameterError("file", name, code)
     ((points, closed),) = lines
     size = max(abs(z - points[0]) for z in points)
