@@ -81,7 +81,7 @@ def _swept(law: str = '"sine"', move: str = "return_", more: str = "") -> str:
     ("text", "words"),
     [
         (_swept('"sinus"'), ("[1].law", '"cosine"', "did you mean sine?")),
-        (_swept(move="return"), ("[2].move", '"dwell"', "did you mean return_?")),
+        (_swept(move="retrun"), ("[2].move", '"dwell"', "did you mean return?")),
         (_swept(more=", lawn = 1"), ("[2].lawn", "move, angle_deg, law, share")),
         (_swept("{ diagramm = [] }"), ("law.diagramm", "did you mean diagram?", "diagram and 12 more")),
         (_swept('{ diagram = [{ shape = "sine", width = 1.0 }] }'), ("[1].shape", "did you mean half_sine?")),
