@@ -115,7 +115,8 @@ class Group(Record):
     its lower and higher kinematic pairs, of a dyad 3 and 0, of a cam and its follower's guide 1 and 1.
 
     ``plane``: the frame in whose x, y plane these poses are, where that is not the fixed frame's: all links' frames
-    then coincide with it at the start.
+    then coincide with it at the start. ``counts``: whether how often the first of the others has turned makes a
+    difference: its angle is told with all whole turns.
     """
 
     links: tuple[str, ...]
@@ -123,6 +124,7 @@ class Group(Record):
     poses: Callable[[list[Pose]], list[Pose]]
     pairs: tuple[int, int]
     plane: Placement3 | None = None
+    counts: bool = False
 
     @property
     def axis(self) -> Vector:

@@ -162,6 +162,9 @@ class Moving(Record):
                     on = [_pose(self.starts[other], bodies[other]) for other in joint.on]
                 else:
                     on = [self._seen_in(joint.plane, other, bodies, (t, order)) for other in joint.on]
+                if joint.counts:
+                    place, turn = on[0]
+                    on[0] = place, [turn[0] + _TURN * self._whole_turns(joint.on[0], t), *turn[1:]]
                 origin, angle = joint.poses(on)[joint.links.index(name)]
                 start = self.starts[name][1] if joint.plane is None else 0.0
                 inputs[name] = [angle[0] - start, *angle[1:]]
@@ -169,6 +172,13 @@ class Moving(Record):
             else:
                 bodies[name] = self._moved(name, joint, bodies[joint.on], (t, order), inputs)
         return bodies
+
+    def _whole_turns(self, link: str, t: Real) -> Real:
+        """How many turns are left out of a link's since the start, where a drive alone turns it."""
+        while isinstance(joint := self.stands.supports[link], Fixed):
+            link = joint.on
+        turns = float(self.courses[link].start) + float(self.courses[link].rate) * t
+        return np.asarray(np.rint(turns - _line(self.courses[link], t, slides=False) / _TURN))
 
     def _seen_in(self, plane: Placement3, link: str, bodies: Mapping[str, _Body], at: tuple[Real, int]) -> Pose:
         """How the frame of a plane has moved in it with a link; what it does next is not told."""

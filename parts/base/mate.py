@@ -126,6 +126,8 @@ class Mating(Joined, kw_only=True):
     decides_solids = False
     # whether the second stands wherever the first puts it: a follower on its cam
     follows = False
+    # and elsewhere after a whole turn of the first than before
+    counts_turns = False
     # whether a second that stands already must stand at ``height``
     asks_height = True
     # whether the first may lie on any axis, and the second stand already: ``laid_standing`` holds them together

@@ -9,8 +9,8 @@ from parts.base.psv import sentences_of
 from parts.base.texts import N_, Text
 
 SUBJECTS = (
-    "general", "gears", "cams", "wheels", "pins", "chains", "belts", "noncircular", "mates", "motion", "scene", "pages",
-    "exports",
+    "general", "gears", "cams", "wheels", "pins", "ratchets", "chains", "belts", "noncircular", "mates", "motion",
+    "scene", "pages", "exports",
 )  # fmt: skip
 # what would work, by the side of the nearest value
 REMEDIES = {

@@ -8,21 +8,15 @@ from typing import TYPE_CHECKING, Annotated
 import msgspec
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError
-from geometry.base.nearest import kept, moved, nearest
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
-from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report, diameters
 from parts.keys.base import MOST_LENGTH, either, mm, part_mm, start
-from parts.keys.holes import holes_of
-from parts.keys.pins import MARGIN, least_of, moved_region, wheel_holes
-from parts.keys.wheel import WheelKeys, WheelKind
+from parts.keys.rings import SidedKeys, SidedKind, sided_holes
 
 if TYPE_CHECKING:
     from geometry.gears.pins.geneva import GenevaWheel
-    from geometry.plane.offset_region import OffsetRegion
-    from geometry.plane.profile import Profile, Region
-    from geometry.solids.body import Body
     from parts.base.readback import Probe
 
 # by default: the pin's diameter as a part of the crank radius; of the pin's, the wall of a tip, at most such a part of
@@ -30,7 +24,6 @@ if TYPE_CHECKING:
 _PIN, _TIP, _MOST_OF_TIP, _GAP = 1 / 8, 1.0, 1 / 6, 0.1
 # discs that are tried where the one that is given does not work, as parts of the room
 _DISCS = (0.8, 0.9, 0.95, 0.98, 0.99)
-_ONLY_EXTERNAL = ("bore_diameter", "bore", "spokes", "web", "hub", "face_chamfer")
 
 _CENTRE_DISTANCE = part_mm("between the axes of driver and wheel; or give crank_radius", above=0)
 _CRANK_RADIUS = part_mm("from the driver's axis to a pin, in place of centre_distance", above=0, example=30.0)
@@ -44,7 +37,7 @@ _LOCKING_DIAMETER = part_mm(
 _OUTER_DIAMETER = mm("of an internal wheel; default: two pins beyond", above=0, most=2 * MOST_LENGTH, example=240.0)
 
 
-class GenevaWheelSpec(WheelKeys, kw_only=True, tag_field="kind", tag="geneva_wheel"):
+class GenevaWheelSpec(SidedKeys, kw_only=True, tag_field="kind", tag="geneva_wheel"):
     """Keys of ``geneva_wheel``."""
 
     number_of_slots: Annotated[int, Meta(ge=3, le=100, description="number of slots n", examples=[6])]
@@ -60,7 +53,7 @@ class GenevaWheelSpec(WheelKeys, kw_only=True, tag_field="kind", tag="geneva_whe
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
 
 
-class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
+class GenevaWheelKind(SidedKind[GenevaWheelSpec, "GenevaWheel"]):
     """A wheel with radial slots."""
 
     name, keys = "geneva_wheel", GenevaWheelSpec
@@ -69,27 +62,7 @@ class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
     def thing(self, keys: GenevaWheelSpec, others: Others) -> GenevaWheel:
         """The wheel, checked to have slots and tips, and holes within them."""
         wheel = _with_tips(keys)
-        if keys.internal:
-            return _ring(keys, wheel)
-        if keys.outer_diameter is not None:
-            raise ParameterError("outer_diameter", keys.outer_diameter, "only_of_internal", Nearest(None))
-        return replace(wheel, holes=wheel_holes(keys, wheel.root_radius))
-
-    def outline(self, thing: GenevaWheel, offset: float) -> Profile:
-        """Tips, slots and arcs, moved."""
-        return moved(thing.profile, offset)
-
-    def section(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> OffsetRegion:
-        """The exact section, moved."""
-        return moved_region(lambda by: _region(thing, by), offset)
-
-    def solid(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> Body:
-        """The wheel with its web, hub and chamfers, or the ring, which has none."""
-        from geometry.solids.body import plate
-
-        if keys.internal:
-            return plate(self.section(keys, thing, offset).region, 0.0, keys.face_width)
-        return super().solid(keys, thing, offset)
+        return replace(wheel, holes=sided_holes(keys, wheel, "holes_reach_slots"))
 
     def probes(self, keys: GenevaWheelSpec, thing: GenevaWheel) -> tuple[Probe, ...]:
         """The pin goes through its slots, the disc into its arcs."""
@@ -166,46 +139,3 @@ def _with_tips(keys: GenevaWheelSpec) -> GenevaWheel:
                 cure = partial(nearest, fits, given, ends, digits=6)
                 raise ParameterError(key, given, refusal.code, cure) from refusal
         raise
-
-
-def _ring(keys: GenevaWheelSpec, wheel: GenevaWheel) -> GenevaWheel:
-    """An internal wheel with holes in its rim."""
-    for key in _ONLY_EXTERNAL:
-        value = getattr(keys, key)
-        if value:
-            raise ParameterError(key, None if isinstance(value, msgspec.Struct) else value, "only_of_external",
-                                 Nearest(None))  # fmt: skip
-    holes = holes_of(keys)
-    least = least_wall(wheel.root_radius) * (1 + MARGIN)
-    for key, group in holes.groups():
-        group.check(key)
-        circle, needed = group.pitch_circle_diameter, 2 * (wheel.root_radius + least) + group.diameter
-        if circle < needed:
-            raise ParameterError(f"{key}.pitch_circle_diameter", circle, "holes_reach_slots", least_of(needed, circle))
-    HubHoles(None, holes.round_holes).check(max(wheel.outer_radius, holes.reach * 2 + least))
-    beyond = max(wheel.root_radius, holes.reach) + least
-    if wheel.outer_radius < beyond:
-        wide = least_of(2 * beyond, 2 * wheel.outer_radius)
-        raise ParameterError("outer_diameter", keys.outer_diameter, "leaves_no_rim", wide)
-    return replace(wheel, holes=holes)
-
-
-def _region(wheel: GenevaWheel, offset: float) -> Region:
-    """The section, moved ``offset`` mm out of the material.
-
-    Raises
-    ------
-    GeometryError
-        A slot closes, a tip or a wall does not survive.
-    """
-    from geometry.plane.profile import Label, Region, circle
-
-    slots = wheel.profile(offset)
-    holes = wheel.holes.profiles(offset)
-    if not wheel.drive.internal:
-        if wheel.holes.number and wheel.root_radius + offset <= wheel.holes.reach - offset:
-            raise OffsetError(offset, "leaves_no_rim")
-        return Region(slots, holes)
-    if -2 * offset >= wheel.outer_radius - max(wheel.root_radius, wheel.holes.reach):
-        raise OffsetError(offset, "leaves_no_rim")
-    return Region(circle(wheel.outer_radius + offset, Label.BODY), (slots, *holes))

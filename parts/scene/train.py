@@ -132,7 +132,8 @@ class Train(Record):
     def rates(self, key: str) -> tuple[Fraction, ...] | None:
         """Turns of an instance, then of what carries it, from the nearest on, for one t.
 
-        What a cam moves does not turn, and its cam carries it; None of what slides on and on, or turns unevenly.
+        What a cam moves does not turn, and its cam carries it; None of what slides on and on, turns unevenly,
+        or stands elsewhere after a whole turn.
         """
         if key in self.uneven:
             return None
@@ -140,6 +141,8 @@ class Train(Record):
         while key != FRAME:
             joint = self.moving.stands.supports[key]
             if isinstance(joint, Group):
+                if joint.counts:
+                    return None
                 found.append(Fraction())
                 key = joint.on[0]
                 continue
@@ -347,7 +350,7 @@ def _following(mating: Mating, stand: Stand, body: str, *, laid: bool = False) -
         unknown = [np.full(np.shape(at), np.nan)] * (len(angle) - 1)
         return [([at + arm * np.exp(1j * turned), *unknown], [turned + lean, *unknown])]
 
-    return Group((body,), (mating.first,), poses, (1, 1), plane)
+    return Group((body,), (mating.first,), poses, (1, 1), plane, mating.counts_turns)
 
 
 def _pose_in(plane: Placement3, frame: Placement3) -> Pose:

@@ -161,6 +161,11 @@ class GenevaWheel(Record):
     holes: HubHoles = _NO_HOLES
 
     @property
+    def internal(self) -> bool:
+        """Whether it is a ring."""
+        return self.drive.internal
+
+    @property
     def half_width(self) -> float:
         """Of a slot, mm."""
         return (self.pin_diameter + self.slot_clearance) / 2

@@ -136,6 +136,8 @@ SHEETS = [
     ("cycloidal-gear", "clock_gears", "part=wheel"),
     ("lantern", "lantern_pair"),
     ("geneva", "geneva_drive", "part=wheel"),
+    ("ratchet", "ratchet", "part=wheel", "torque=20"),
+    ("ratchet", "ratchet", "part=ring"),
     ("spline", "size=d-6x23x26", "torque=150", "length=30"),
     ("involute-spline", "size=45x2", "torque=500", "length=40", "clearance=0.05"),
     ("involute-spline", "size=20x1", "root=fillet", "pin_diameter=2.2"),

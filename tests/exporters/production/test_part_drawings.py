@@ -85,6 +85,10 @@ PARTS["geneva"] = {"kind": "geneva_wheel", "number_of_slots": 4, "centre_distanc
 PARTS["geneva ring"] = {key: value for key, value in PARTS["geneva"].items() if key != "bore_diameter"} | {
     "internal": True, "tip_rounding": 1.0, "outer_diameter": 320.0,
 }  # fmt: skip
+PARTS["ratchet"] = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 16, "bore_diameter": 10.0,
+                    "face_width": 8.0}  # fmt: skip
+PARTS["ratchet ring"] = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 24, "internal": True,
+                         "tip_land": 6.0, "turns": "cw", "outer_diameter": 150.0}  # fmt: skip
 PARTS["key"] = {"kind": "key", "shaft_diameter": 30.0, "length": 32.0}
 PARTS["sprocket"] = {"kind": "sprocket", "chain": "08B-2", "number_of_teeth": 12, "bore_diameter": 14.0,
                      "hub": {"diameter": 30.0, "above": 8.0}}  # fmt: skip
@@ -190,6 +194,9 @@ SIZES: dict[str, list[float]] = {
         42.5,
         1,
     ],
+    # m z, a depth of 0.75 m, chord of a land of m, a tenth of m
+    "ratchet": [8, 10, 80, 72.5, 80 * math.sin(5 / 80), 0.5],
+    "ratchet ring": [10, 150, 120, 127.5, 120 * math.sin(6 / 120), 0.5],
     # ISO 606: d + p (1.125 - 0.8/z) - d1, b_f = 0.91 b1, p_t, p cot(180 deg / z) - 1.04 h2 - 0.76
     "sprocket": [
         14,

@@ -24,6 +24,7 @@ SHEETS = {
     "noncircular": ("noncircular", ["oval_gears", "part=oval"]),
     "lantern": ("lantern", ["lantern_pair"]),
     "geneva": ("geneva", ["geneva_drive", "part=ring"]),
+    "ratchet": ("ratchet", ["ratchet", "part=ring", "torque=5"]),
     "chain": ("chain", ["chain_drive", "part=printed_pinion", "speed_rpm=300", "torque=5"]),
     "belt": ("belt", ["belt_drive", "speed_rpm=300", "torque=0.5"]),
     "cycloidal": ("cycloidal", ["cycloidal_reducer"]),

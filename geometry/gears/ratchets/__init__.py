@@ -1,0 +1,1 @@
+"""Ratchet wheels and their pawls."""

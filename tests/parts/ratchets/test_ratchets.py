@@ -1,0 +1,166 @@
+"""Ratchets in scenes: pawls at their teeth, motion, what a drive may not do, refusals that name what works."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from exporters.production.check import scene_checks
+from geometry.solids.mass import body_moments
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import Placing, place
+from tests.sampling import some_of
+
+Keys = dict[str, Any]
+WHEEL: Keys = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 16}
+RING: Keys = WHEEL | {"number_of_teeth": 24, "internal": True}
+PAWL: Keys = {"kind": "pawl", "of": "wheel"}
+MATE: Keys = {"kind": "ratchet_pair", "first": "wheel", "second": "pawl"}
+
+
+def placed(wheel: Keys, pawl: Keys, mates: list[Keys] | None = None, **more: Any) -> tuple[Placing, dict[str, Any]]:
+    """Where both stand, and what the checks say."""
+    tables = {"parts": {"wheel": wheel, "pawl": pawl}, "mates": mates or [MATE], **more}
+    made = scene_from_dict(tables, "t", "t")
+    parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    return placing, scene_checks(placing, parts, made.drives, "en", contact=True)
+
+
+def refusal(wheel: Keys, pawl: Keys | None) -> SceneError | None:
+    try:
+        make_parts(scene_from_dict({"parts": {"wheel": wheel} | ({"pawl": pawl} if pawl else {})}, "t", "t"), "t")
+    except SceneError as error:
+        return error
+    return None
+
+
+@pytest.mark.parametrize("turns", ["ccw", "cw"])
+@pytest.mark.parametrize("wheel", [WHEEL, RING], ids=["external", "internal"])
+def test_a_pawl_rides_freely_and_is_told_where_it_holds(wheel: Keys, turns: str) -> None:
+    sense = 1 if turns == "ccw" else -1
+    teeth = wheel["number_of_teeth"]
+    for run, told in ((2.5 * sense, []), (-0.5 * sense, ["turns_against_pawl"])):
+        placing, checks = placed(wheel | {"turns": turns}, PAWL, drives=[{"instance": "wheel", "turns": run}])
+        (mate,) = checks["mates"]
+        assert mate["verdict"] == "contact"
+        assert [one["code"] for one in mate["findings"]] == told
+        train = placing.train
+        assert train is not None
+        if told:
+            # it holds: the pawl does not move
+            assert train.poses([run / 2])["pawl"] == pytest.approx(train.poses([0])["pawl"])
+            continue
+        # lifted on a land, the same of any, whole turns later too; seated at the beginning alone
+        ways = [train.poses([sense * (tooth - 0.05) / teeth])["pawl"][1] for tooth in (1, 2, teeth + 1, 2 * teeth)]
+        start = train.poses([0])["pawl"][1]
+        swing = math.radians(mate["pawl_swing_deg"])
+        side = -1 if wheel is RING else 1
+        for way in ways:
+            assert math.remainder(way - start, 2 * math.pi) == pytest.approx(-side * sense * swing)
+
+
+def test_pawls_stand_at_their_teeth_or_between_them() -> None:
+    """Two half a pitch apart: the wheel turns back by half a pitch until the other one holds it."""
+    mates = [MATE | {"tooth": 1.0}, MATE | {"second": "other", "tooth": 9.5}]
+    instances: Keys = {"wheel": {}, "pawl": {}, "other": {"part": "pawl"}}
+    placing, checks = placed(WHEEL, PAWL, mates, instances=instances)
+    assert [mate["turn_back_deg"] for mate in checks["mates"]] == pytest.approx([0.0, 11.25])
+    assert [mate["verdict"] for mate in checks["mates"]] == ["contact", "contact"]
+    directions = [mate["direction_deg"] for mate in checks["mates"]]
+    assert directions[1] - directions[0] == pytest.approx(8.5 * 22.5)
+    # the same places by their directions
+    by = [MATE | {"direction_deg": directions[0]}, MATE | {"second": "other", "direction_deg": directions[1]}]
+    again, _ = placed(WHEEL, PAWL, by, instances=instances)
+    for one, two in zip(placing.instances, again.instances, strict=True):
+        assert (one.centre, one.rotation) == pytest.approx((two.centre, two.rotation))
+
+
+def test_conditions_of_a_pair_are_told_with_their_numbers() -> None:
+    _, checks = placed(WHEEL | {"front_angle_deg": 5.0}, PAWL)
+    (found,) = checks["mates"][0]["findings"]
+    assert (found["code"], found["value"]) == ("pawl_slips_out", pytest.approx(5.0))
+    assert found["limit"] == pytest.approx(math.degrees(math.atan(0.15)))
+    _, checks = placed(WHEEL | {"front_angle_deg": 5.0}, PAWL, [MATE | {"friction": 0.05}])
+    assert checks["mates"][0]["findings"] == []
+    made, _ = make_parts(
+        scene_from_dict({"parts": {"wheel": WHEEL, "pawl": PAWL | {"nose_radius": 1.6}}}, "t", "t"), "t"
+    )
+    (shallow,) = made["pawl"].findings
+    assert (shallow.code, shallow.limit) == ("shallow_pawl", pytest.approx(3.75 / 2))
+    assert shallow.value < shallow.limit
+
+
+def test_a_pawl_that_stands_elsewhere_is_told() -> None:
+    """By hand it is turned off its place: nothing is contact then."""
+    placing, _ = placed(WHEEL, PAWL)
+    (own,) = (one for one in placing.instances if one.id == "pawl")
+    at = [own.centre.real, own.centre.imag, 0.0]
+    for off, met in ((0.0, True), (1.0, False)):
+        rotation = math.degrees(own.rotation) + off
+        instances: Keys = {"wheel": {}, "pawl": {"at": at, "rotation_deg": rotation}}
+        _, checks = placed(WHEEL, PAWL, instances=instances)
+        assert all(one["met"] for one in checks["mates"][0]["conditions"]) == met
+
+
+REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
+    "no land": (WHEEL | {"notch_angle_deg": 85.0}, None, "notch_angle_deg", "leaves_no_land"),
+    "wide land": (WHEEL | {"tip_land": 15.8}, None, "tip_land", "leaves_no_notch"),
+    "deep": (WHEEL | {"tooth_depth": 41.0}, None, "tooth_depth", "leaves_no_root_circle"),
+    "round root": (WHEEL | {"root_fillet_radius": 6.0}, None, "root_fillet_radius", "rounding_takes_face"),
+    "narrow": (WHEEL | {"tip_land": 12.0, "notch_angle_deg": 50.0}, None, "tip_land", "notch_too_narrow"),
+    "few teeth of a ring": (RING | {"number_of_teeth": 6}, None, "tooth_depth", "back_does_not_fall"),
+    "wide bore": (WHEEL | {"bore_diameter": 72.5}, None, "bore_diameter", "no_wall_around_bore"),
+    "bore of a ring": (RING | {"bore_diameter": 6.0}, None, "bore_diameter", "only_of_external"),
+    "thin ring": (RING | {"outer_diameter": 127.0}, None, "outer_diameter", "leaves_no_rim"),
+    "rim": (WHEEL | {"outer_diameter": 200.0}, None, "outer_diameter", "only_of_internal"),
+    "blunt nose": (WHEEL, PAWL | {"nose_radius": 8.0}, "nose_radius", "nose_does_not_fit"),
+    "nose sharper than the root": (WHEEL, PAWL | {"nose_radius": 0.2}, "nose_radius", "nose_does_not_fit"),
+    "thick boss": (WHEEL, PAWL | {"boss_diameter": 30.0, "length": 24.0}, "boss_diameter", "boss_reaches_teeth"),
+    "thin boss": (WHEEL, PAWL | {"boss_diameter": 3.0}, "pivot_diameter", "hole_reaches_edge"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("wheel", "pawl", "key", "code"), REFUSED.values(), ids=REFUSED.keys())
+def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, pawl: Keys | None, key: str, code: str) -> None:
+    refused = refusal(wheel, pawl)
+    assert refused is not None
+    owner, _, name = refused.key.removeprefix("parts.").partition(".")
+    assert (name, refused.code) == (key, code)
+    found = refused.nearest
+    assert found is not None
+    parts = {"wheel": wheel, "pawl": pawl or PAWL}
+    parts[owner] = {k: v for k, v in (parts[owner] | {key: found.value}).items() if v is not None}
+    assert refusal(parts["wheel"], parts["pawl"] if pawl else None) is None
+
+
+def test_any_number_of_teeth_makes_a_ratchet_from_two_keys() -> None:
+    for teeth in some_of((3, 4, 6, 7, 12, 30, 100, 400), 4):
+        for front in (0.0, 15.0):
+            wheel = WHEEL | {"number_of_teeth": teeth, "front_angle_deg": front}
+            _, checks = placed(wheel, PAWL)
+            assert checks["mates"][0]["verdict"] == "contact"
+    for teeth in some_of((8, 16, 60), 2):
+        _, checks = placed(RING | {"number_of_teeth": teeth}, PAWL)
+        assert checks["mates"][0]["verdict"] == "contact"
+
+
+def test_a_pawl_is_for_one_wheel() -> None:
+    parts = {"wheel": WHEEL, "other": WHEEL | {"number_of_teeth": 18}, "pawl": PAWL | {"of": "other"}}
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": parts, "mates": [MATE]}, "t", "t"), "t")
+    assert (refused.value.key, refused.value.code) == ("mates[1]: parts.pawl.of", "made_for_another_wheel")
+
+
+@pytest.mark.parametrize("angle", [-60.0, 0.0, 45.0])
+def test_a_tail_adds_to_the_pawl(angle: float) -> None:
+    """Its area lies between that of the pawl without and that with all of the tail beyond the boss."""
+    found = []
+    for tail in (0.0, 20.0):
+        own = PAWL | {"tail_length": tail, "tail_width": 5.0} | ({"tail_angle_deg": angle} if tail else {})
+        made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "pawl": own}}, "t", "t"), "t")
+        found.append(body_moments(made["pawl"].body(0.0)).volume / 10.0)
+    assert 0.5 * 15 * 6 < found[1] - found[0] < 25 * 7.5
