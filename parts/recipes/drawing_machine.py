@@ -40,8 +40,8 @@ _RIM = 1.0
 _ROWS = 720
 # mm: a larger prime circle is none to be made; the handle above its crank, and that where nobody says it
 _MOST_PRIME, _HANDLE, _CRANK_LENGTH = 500.0, 25.0, 30.0
-# of the smoothing, tried where corners ask for such cams
-_SMOOTHER = (1.5, 2.0, 3.0, 5.0, 10.0)
+# of the smoothing, and of the pressure angle, tried where they ask for such cams
+_SMOOTHER, _STEEPER = (1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0), (1.5, 2.0, 3.0, 4.0, 6.0)
 
 _PICTURE = 'closed line by its corners x, y, y upwards, in any unit; or { file = "heart.svg" }, a path of an SVG'
 _SIZE = mm("of the drawing: the greater one of its width and height", above=0, most=500)
@@ -165,19 +165,25 @@ class _Making(Making):
         steep = math.radians(keys.greatest_pressure_angle_deg)
         convex = max(keys.least_curvature_radius, r / USUAL_ROLLER_SHARE - r)
         room = max(self.half + max(self.ring, keys.axle_diameter / 2 + _WALL), r + keys.pen_diameter / 2)
-        found = [room + _APART - min(self.low)]
+        pressure = max(roller_prime_radius(motion, 0.0, steep, steep) for motion in motions)
         try:
-            for motion in motions:
-                found.append(roller_prime_radius(motion, 0.0, steep, steep))
-                found.append(r + convex_roller_base_radius(motion, r, convex))
+            curved = r + max(convex_roller_base_radius(motion, r, convex) for motion in motions)
         except ConvergenceError:
-            found.append(math.inf)
-        if max(found) > _MOST_PRIME:
-            given = keys.smoothing
-            cure = partial(nearest, lambda x: bool(_Making(replace(keys, smoothing=x))), given,
-                           [given * share for share in _SMOOTHER])  # fmt: skip
-            raise ParameterError("smoothing", given, "corners_need_large_cams", cure, most=_MOST_PRIME)
-        return float(math.ceil(round(max(found), 6)))
+            curved = math.inf
+        for name, asked, shares in (
+            ("greatest_pressure_angle_deg", pressure, _STEEPER),
+            ("smoothing", curved, _SMOOTHER),
+        ):
+            if asked > _MOST_PRIME:
+                given = getattr(keys, name)
+                works = partial(self._works, name)
+                cure = partial(nearest, works, given, [given * share for share in shares])
+                raise ParameterError(name, given, "cams_too_large", cure, most=_MOST_PRIME)
+        return float(math.ceil(round(max(room + _APART - min(self.low), pressure, curved), 6)))
+
+    def _works(self, name: str, value: float) -> bool:
+        """Whether a machine of another value of a key can be made."""
+        return bool(_Making(replace(self.keys, **{name: value})))
 
     def _lay_out(self) -> None:
         """Where guide pins, pen and handle stand, in whole mm."""

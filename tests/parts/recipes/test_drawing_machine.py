@@ -148,7 +148,8 @@ def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.Captu
     ({"picture": [[1, 1], [1, 1], [1, 1]]}, "picture_is_flat", "picture"),
     ({"start_point": 6}, "fewer_corners", "start_point"),
     ({"smoothing": 40.0}, "rest_within_tolerance", "smoothing"),
-    ({"smoothing": 0.01, "size": 200.0, "greatest_pressure_angle_deg": 12.0}, "corners_need_large_cams", "smoothing"),
+    ({"smoothing": 0.01, "size": 200.0, "follower_radius": 40.0}, "cams_too_large", "smoothing"),
+    ({"size": 100.0, "greatest_pressure_angle_deg": 5.0}, "cams_too_large", "greatest_pressure_angle_deg"),
     ({"prime_circle_radius": 20.0}, "prime_circle_too_small", "prime_circle_radius"),
     ({"crank_length": 90.0}, "crank_meets_pen", "crank_length"),
     ({"slide_width": 10.0}, "no_wall_beside_holes", "slide_width"),
@@ -160,7 +161,7 @@ def test_what_cannot_be_is_refused_with_what_works(keys: dict[str, Any], code: s
         scene_from_dict(scene(**keys), "s.toml", "s")
     assert found.value.code == code
     assert found.value.key == f"assemblies[1].{key}"
-    if code in ("picture_is_flat", "corners_need_large_cams"):
+    if code == "picture_is_flat":
         return
     assert found.value.nearest is not None
     scene_from_dict(scene(**keys | {key: found.value.nearest.value}), "s.toml", "s")
