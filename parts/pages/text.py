@@ -43,7 +43,7 @@ def result_text(step: Step, words: Words) -> str:
     """Value and unit."""
     unit, side = unit_text(step.unit, words), TERMS[step.name].side
     gap = "" if unit in ("°", "") else " "
-    value = Told(step.value, up=side == "up") if side and isinstance(step.value, float) else step.value
+    value = Told(step.value, up=side == "up") if side and type(step.value) is float else step.value
     return f"{number(value, step.unit)}{gap}{unit}"
 
 

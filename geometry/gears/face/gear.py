@@ -345,7 +345,8 @@ class FaceGear(Record, dict=True):
             The face begins within the undercut, or ends beyond the pointed tips.
         """
         m, inner, outer = self.module, 2 * self.inner_radius, 2 * self.outer_radius
-        least, most = 2 * self.least_radius, 2 * self.tip_limit(_LEAST_TIP * m)
+        least, thin = 2 * self.least_radius, _LEAST_TIP * m
+        most = 2 * self.tip_limit(thin)
         room = 2 * LEAST_FACE * m
         if math.isinf(least):
             raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_tip")
@@ -358,9 +359,9 @@ class FaceGear(Record, dict=True):
             raise ParameterError.beyond("inner_diameter", inner, code, least * (1 + 1e-9), diameter=least)
         if inner > most - room:
             code = "face_gear_pointed_inside"
-            raise ParameterError.beyond("inner_diameter", inner, code, most - room, diameter=most)
+            raise ParameterError.beyond("inner_diameter", inner, code, most - room, diameter=most, thin=thin)
         if outer > most:
-            raise ParameterError.beyond("outer_diameter", outer, "face_gear_pointed", most, diameter=most)
+            raise ParameterError.beyond("outer_diameter", outer, "face_gear_pointed", most, diameter=most, thin=thin)
         if outer < inner + room:
             raise ParameterError.beyond("outer_diameter", outer, "face_gear_narrow", inner + room, diameter=inner)
         if self._folds():

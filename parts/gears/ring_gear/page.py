@@ -10,7 +10,7 @@ from msgspec import Meta
 from geometry.gears.teeth import measurement, ring_limits
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import generation
-from parts.base.texts import N_
+from parts.base.texts import N_, Told
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear, tip_finding
 from parts.gears.spur_gear.page import (
     cutter_data,
@@ -134,7 +134,8 @@ def _limits(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
         for margin in mesh.margins():
             page.add(f"{margin.name}_margin", margin.margin, "", "KHK")
     if (pointed := ring_limits.pointed_tip(ring).limit) > 0:
-        page.add("pointed_diameter", pointed)
+        # the least of a ring
+        page.add("pointed_diameter", Told(pointed, up=True))
     least_tip_step(page, ring.module)
     limited = tip_finding(ring, keys.module)
     found = [*([] if limited is None else [limited]), *ring_limits.findings(ring)]

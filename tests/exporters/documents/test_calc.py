@@ -6,6 +6,7 @@ import html
 import itertools
 import json
 import math
+import random
 import re
 from functools import cache
 from pathlib import Path
@@ -1304,3 +1305,18 @@ def test_text_of_digits_needs_no_quotes_which_no_shell_leaves(capsys: pytest.Cap
     # 40 of ANSI is half an inch
     assert pages[0] == pages[1]
     assert "p = 12.7 mm" in pages[0]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_diameter_at_which_a_tooth_is_pointed_is_typed_back_as_it_is_told(seed: int) -> None:
+    """Rounded to the nearest digit, every other one was refused as pointed; one more digit is."""
+    draw = random.Random(seed)
+    words = [f"module={draw.choice([1, 1.25, 2.5])}", f"number_of_teeth={draw.randint(12, 90)}",
+             f"profile_shift_coefficient={round(draw.uniform(0, 0.8), 2)}"]  # fmt: skip
+    told = re.search(r"at which the tooth is pointed.*\n    d_p = ([\d.]+) mm", calculate("spur", words, "text", "en"))
+    assert told is not None
+    assert calculate("spur", [*words, f"tip_diameter={told[1]}"], "text", "en")
+    beyond = float(told[1]) + 2 * 10.0 ** -len(told[1].partition(".")[2])
+    with pytest.raises(SceneError) as refusal:
+        calculate("spur", [*words, f"tip_diameter={beyond!r}"], "text", "en")
+    assert refusal.value.code == "tooth_pointed"
