@@ -5,13 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 
-from geometry.base.placement import Placement2
 from geometry.base.record import replace
+from geometry.curves.line_arc import Arc
 from geometry.gears.ratchets.wheel import RatchetWheel
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.wheel_views import ring_face, ring_section
-from parts.drawing.working import VISIBLE, Note, PartDrawing, Round, Size, Subject, View, requirements
+from parts.drawing.wheel_views import circle_of, ring_face, ring_section
+from parts.drawing.working import AXIS, VISIBLE, Note, PartDrawing, Round, Size, Subject, View, arc_angles, requirements
 from parts.keys.wheel import shape_of
 from parts.ratchets.wheel import RatchetWheelSpec
 from parts.texts.sheets import counted_words
@@ -45,22 +45,23 @@ def _ring(wheel: RatchetWheel, subject: Subject) -> PartDrawing:
         Round(name, 0j, radius, angles=(-60.0, -120.0, -30.0, 210.0))
         for name, radius in (("tip_diameter", wheel.tip_radius), ("root", wheel.root_radius))
     ]
-    face = replace(face, rounds=(*told, *face.rounds)).plus((VISIBLE, edge) for edge in wheel.outline())
+    strokes = [*((VISIBLE, edge) for edge in wheel.outline()), (AXIS, circle_of(wheel.root_radius))]
+    face = replace(face, rounds=(*told, *face.rounds)).plus(strokes)
     teeth = wheel.number_of_teeth
     return PartDrawing((section, face), requirements(subject, *directions(wheel.holes, subject, "zero_edge", teeth)))
 
 
 def _with_teeth(face: View, wheel: RatchetWheel, language: str) -> View:
-    """The land of tooth 1 and the rounding of a root."""
-    teeth, turn = wheel.number_of_teeth, Placement2(wheel.pitch_angle)
-    places = counted_words(language, "places_of", teeth)
+    """How far the land of tooth 1 rises over its edge, and the rounding of a root."""
+    places = counted_words(language, "places_of", wheel.number_of_teeth)
     start, end = complex(wheel.tip_radius), cmath.rect(wheel.tip_radius, wheel.land_angle)
-    centre = turn.apply(wheel.notch.last)
     if not wheel.ccw:
-        start, end, centre = end.conjugate(), start, centre.conjugate()
-    face = face.plus(sizes=[Size("tip_land_chord", start, end, "right", places=places)])
-    if wheel.fillet_radius == 0:
+        start, end = end.conjugate(), start
+    face = face.plus(sizes=[Size("tip_land", start, end, "right", places=places)])
+    # of a root with an arc between both roundings, that of the working face
+    roundings = (e for e in wheel.outline() if isinstance(e, Arc) and e.centre != 0)
+    one = min(roundings, key=lambda arc: abs(abs(cmath.phase(arc.centre)) - wheel.pitch_angle), default=None)
+    if one is None:
         return face
-    angles = tuple(180.0 + turned for turned in (0.0, 30.0, -30.0))
-    told = Round("root_fillet", centre, wheel.fillet_radius, "R", is_radius=True, angles=angles, places=places)
+    told = Round("root_fillet", one.centre, one.radius, "R", is_radius=True, angles=arc_angles(one), places=places)
     return face.plus(rounds=[told])

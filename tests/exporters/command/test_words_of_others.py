@@ -118,7 +118,7 @@ def test_what_other_programs_tell_by_one_number_is_shown_as_a_table(
     [
         ("crown_gear", "face_gear"), ("internal_gear", "ring_gear"), ("elliptical_gear", "noncircular_gear"),
         ("cylindrical_cam", "barrel_cam"), ("maltese_cross", "geneva_wheel"), ("screw_gear", "crossed_helical_pair"),
-        ("cycloidal_drive", "cycloidal_reducer"), ("disc_cam", "cam"), ("ratchet", "layered"),
+        ("cycloidal_drive", "cycloidal_reducer"), ("disc_cam", "cam"), ("detent", "pawl"),
         ("harmonic_drive", None), ("globoidal_cam", None), ("sector_gear", "spur_gear"),
     ],
 )  # fmt: skip

@@ -194,9 +194,9 @@ SIZES: dict[str, list[float]] = {
         42.5,
         1,
     ],
-    # m z, a depth of 0.75 m, chord of a land of m, a tenth of m
-    "ratchet": [8, 10, 80, 72.5, 80 * math.sin(5 / 80), 0.5],
-    "ratchet ring": [10, 150, 120, 127.5, 120 * math.sin(6 / 120), 0.5],
+    # m z, a depth of 0.75 m, height of a land of m over its edge, a tenth of m
+    "ratchet": [8, 10, 80, 72.5, 40 * math.sin(5 / 40), 0.5],
+    "ratchet ring": [10, 150, 120, 127.5, 60 * math.sin(6 / 60), 0.5],
     # ISO 606: d + p (1.125 - 0.8/z) - d1, b_f = 0.91 b1, p_t, p cot(180 deg / z) - 1.04 h2 - 0.76
     "sprocket": [
         14,
