@@ -6,6 +6,7 @@ inside the true solid: what overlaps then overlaps for certain. The booleans are
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
 from itertools import combinations
@@ -30,6 +31,8 @@ _SHARE = 0.5
 _FLAT = 1e-3
 # of the lesser solid: less in common is rounding
 SLIVER = 1e-9
+# of places, mm, and turns: what rounding leaves is no difference
+_DIGITS = 9
 
 
 class SolidOverlap(Record):
@@ -52,6 +55,8 @@ def solid_overlaps(
     contact, sections = by_contact(placing, parts), Sections(parts)
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
     found = []
+    # pairs that stand alike, as in a row, are held once
+    held: dict[object, float | None] = {}
     for pair in combinations(placing.instances, 2):
         one, two = pair
         if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
@@ -62,19 +67,38 @@ def solid_overlaps(
             if fits is not None and volume == 0 and not fit.is_least:
                 fits.append((one, two, fit.gap))
         else:
-            try:
-                # a thread is meshed only where its hull is not clear
-                hulls = [sections.made(i.part).hull for i in pair]
-                volume = common_volume(
-                    [placed_solid(i, h or inner_solid(parts[i.part])) for i, h in zip(pair, hulls, strict=True)]
-                )
-                if volume > 0 and any(hulls):
-                    volume = common_volume([placed_solid(i, inner_solid(parts[i.part])) for i in pair])
-            except GeometryError:
-                volume = None
+            key = _stand(one, two)
+            if key not in held:
+                held[key] = _common(pair, parts, sections)
+            volume = held[key]
         if volume != 0:
             found.append(SolidOverlap(one.id, two.id, volume))
     return tuple(found)
+
+
+def _common(pair: Sequence[Instance], parts: dict[str, Part], sections: Sections) -> float | None:
+    """The volume that two solids have in common, mm^3; None: a wall too thin to tell."""
+    try:
+        # a thread is meshed only where its hull is not clear
+        hulls = [sections.made(i.part).hull for i in pair]
+        volume = common_volume(
+            [placed_solid(i, h or inner_solid(parts[i.part])) for i, h in zip(pair, hulls, strict=True)]
+        )
+        if volume > 0 and any(hulls):
+            volume = common_volume([placed_solid(i, inner_solid(parts[i.part])) for i in pair])
+    except GeometryError:
+        return None
+    return volume
+
+
+def _stand(one: Instance, two: Instance) -> object:
+    """What is equal for pairs that stand alike: their parts, and where the second is seen from the first."""
+    if one.axis != UPWARDS or two.axis != UPWARDS:
+        return one.id, two.id
+    away = (two.centre - one.centre) * cmath.rect(1.0, -one.rotation)
+    turn = cmath.rect(1.0, two.rotation - one.rotation)
+    numbers = (away.real, away.imag, two.at[2] - one.at[2], turn.real, turn.imag)
+    return one.part, two.part, *(round(x, _DIGITS) + 0.0 for x in numbers)
 
 
 def has_solid_pairs(placing: Placing, parts: dict[str, Part]) -> bool:

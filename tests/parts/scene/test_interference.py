@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from parts.scene.interference import INSET, inner_solid, solid_overlaps
+from parts.scene.interference import INSET, common_volume, inner_solid, solid_overlaps
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
 
@@ -82,3 +82,24 @@ def test_a_turned_body_is_looked_at_a_little_within_its_surface() -> None:
     inset = INSET * part.body(0.0).section_reach()
     found = inner_solid(part).volume()
     assert math.pi * (10 - 2 * inset) ** 2 * (30 - 4 * inset) < found < math.pi * (10 - inset) ** 2 * (30 - 2 * inset)
+
+
+def test_pairs_that_stand_alike_are_held_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row in which each is turned on by its own angle; one that stands otherwise is another pair."""
+    held = []
+
+    def common(pair: Any) -> float:
+        held.append(pair)
+        return common_volume(pair)
+
+    monkeypatch.setattr("parts.scene.interference.common_volume", common)
+    turned = {f"g{k}": {"part": "a", "rotation_deg": 90.0 * k, "at": at}
+              for k, at in enumerate([[0, 0, 0], [39, 0, 0], [39, 39, 0], [0, 39, 0]])}  # fmt: skip
+    found = overlaps({"a": SUN}, turned)
+    assert len(found) == 4
+    # 20 teeth look alike at right angles: all are alike but for the sense in which two are told
+    assert len(held) == 2
+    assert max(found.values()) == pytest.approx(min(found.values()), rel=1e-6)
+    other = overlaps({"a": SUN}, turned | {"g3": {"part": "a", "at": [0, 38, 0]}})
+    assert other[("g0", "g3")] > 1.05 * found[("g0", "g3")]
+    assert other[("g0", "g1")] == found[("g0", "g1")]
