@@ -230,8 +230,10 @@ def _worm(mating: WormMating, scene: SceneFile, asked: Asked, place: str, source
     from parts.mates.sheets.worm_contact import worm_sheet
 
     field = mating.field
-    if field is None or not field.goes_on():
-        raise SceneError(source, place, None, "worm_touches_at_points" if field is None else "worm_contact_turns")
+    if field is None:
+        raise SceneError(source, place, None, "worm_touches_at_points")
+    if field.is_empty() or not field.goes_on():
+        raise SceneError(source, place, None, "worm_touches_nowhere" if field.is_empty() else "worm_contact_turns")
     return worm_sheet(mating, field, scene.scene.title or f"{mating.first}, {mating.second}", asked)
 
 

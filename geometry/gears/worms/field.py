@@ -96,16 +96,22 @@ class Field(Record):
         return float(slid.min()), float(slid.max())
 
     def length_used(self, slope: float = 0.0) -> float:
-        """Twice how far from its middle the worm is touched, mm.
+        """Twice how far from its middle the worm is touched, mm; 0 where teeth too low touch it nowhere.
 
         ``slope``: by how much a thread ends earlier for each mm above its foot: the tangent of its end's cone.
         """
         radii, cut = self._sampled()
-        return 2 * float((np.abs(cut.touching.imag) + slope * (radii - self.teeth.hob.worm.root_radius)).max())
+        return 2 * float(
+            (np.abs(cut.touching.imag) + slope * (radii - self.teeth.hob.worm.root_radius)).max(initial=0.0)
+        )
 
     def goes_on(self) -> bool:
         """Whether the contact moves from root to tip at every height, so that every line is found."""
         return bool((np.diff(self._sampled()[1].slid, axis=0) > 0).all())
+
+    def is_empty(self) -> bool:
+        """Whether the flanks touch nowhere: teeth too low, whose contact lies beyond the threads."""
+        return self._sampled()[0].size == 0
 
     def _sampled(self) -> tuple[Real, Cut]:
         """Radii (m, n) over the field, both ends of every height among them."""

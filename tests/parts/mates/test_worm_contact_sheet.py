@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import json
 import math
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from exporters.documents.topics import calculate
 from exporters.production.plan import plan_build
 from geometry.curves.line_arc import Line
 from parts.drawing.labels import nearest
 from parts.drawing.readback import ReadSheet, Taken
 from parts.mates.sheets.worm_contact import WormMeasures
 from parts.scene.load import scene_from_toml
+from tests.exporters.making import run
 from tests.exporters.production.test_worm_sheet import PAIR
 
 # m 5, q 10, one start on 128 teeth: thread from 19 to 30, wheel from 345 away, its face 26 wide, 660 over its tips
@@ -167,3 +171,23 @@ def test_damage_is_told() -> None:
         assert off < 1e-3
         assert failures == [f"{layer}: 0 lines instead of 1"]
         sheet.samples.insert(k, kept)
+
+
+def test_flanks_too_low_to_touch_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """An addendum of 0.001 m beside a shift of 0.14 m: in the mid plane, where a rack meets an involute, the thread
+    ends 0.139 m on the wheel's side, and the line of action is there beyond the wheel's tip. A traceback before.
+    """
+    module, teeth, shift, addendum = 3.0, 30, 0.14, 0.001
+    off = (shift - addendum) * module
+    met = math.hypot(module * teeth / 2 + off, off / math.tan(math.radians(20.2)))
+    assert met > module * teeth / 2 + (addendum + shift) * module
+    keys = f"module = {module}\ndiameter_quotient = 14\nnumber_of_starts = 2\naddendum_coefficient = {addendum}\n"
+    wheel = f'[parts.g]\nkind = "worm_wheel"\nnumber_of_teeth = {teeth}\nprofile_shift_coefficient = {shift}\n{keys}'
+    worm = f'[parts.w]\nkind = "worm"\nthread_length = 40\n{keys}'
+    file = tmp_path / "w.toml"
+    file.write_text(f'{wheel}{worm}[[mates]]\nkind = "worm_pair"\nfirst = "g"\nsecond = "w"\n', encoding="utf-8")
+    assert run("build", file, "--out", tmp_path, "--format", "sheet") == 2
+    assert "touch nowhere" in capsys.readouterr().err
+    typed = [f"{key}={value}" for key, value in (("number_of_teeth", teeth), ("profile_shift_coefficient", shift))]
+    page = calculate("worm", [*typed, *keys.replace(" ", "").split()], "json", "en")
+    assert json.loads(page)["values"]["worm_ratio"] == 15
