@@ -108,12 +108,16 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
 
 
 def distance_to_nearest(points: Complex, profiles: Sequence[Profile], trusted: float) -> Real:
-    """Distance of each point (n,) from the profile that is nearest to it by the quick pass, mm."""
+    """Distance of each point (n,) from the nearest profile, mm.
+
+    The profile is found by the quick pass, which may take another for the nearest where arcs are long: a point that is
+    farther than ``trusted`` mm is asked of all of them.
+    """
     found = np.full(points.shape, np.inf)
     near = np.zeros(points.shape, dtype=np.int64)
-    if len(profiles) > 1:
+    discs = [profile_disc(p) for p in profiles] if len(profiles) > 1 else []
+    if discs:
         # no profile is asked of points that another's disc says to be nearer to that one
-        discs = [profile_disc(p) for p in profiles]
         most = reduce(np.minimum, (np.abs(points - middle) + reach for middle, reach in discs))
         for index, (profile, (middle, reach)) in enumerate(zip(profiles, discs, strict=True)):
             mine = np.flatnonzero(np.abs(points - middle) - reach <= most)
@@ -124,6 +128,10 @@ def distance_to_nearest(points: Complex, profiles: Sequence[Profile], trusted: f
         own = np.flatnonzero(near == index)
         if own.size:
             found[own] = distance_to_profile(points[own], profile, trusted=trusted)
+    for index, (middle, reach) in enumerate(discs):
+        mine = np.flatnonzero((found > trusted) & (near != index) & (np.abs(points - middle) - reach < found))
+        if mine.size:
+            found[mine] = np.minimum(found[mine], distance_to_profile(points[mine], profiles[index], trusted=trusted))
     return found
 
 

@@ -211,6 +211,8 @@ def check_sector(gear: SpurGear | RingGear) -> None:
         cure = Nearest(most, "at_most") if most >= 1 else None
         raise ParameterError("sector.teeth", sector.teeth, "sector_of_all_teeth", cure, most=most)
     _check_rest(gear, sector)
+    if sector.corner_radius and not sector.stands_off:
+        raise ParameterError("sector.corner_radius", sector.corner_radius, "blank_without_corners", Nearest(0.0))
     try:
         _check_round(gear)
     except GeometryError:

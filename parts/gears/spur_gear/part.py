@@ -202,9 +202,11 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
         return engraved(body, _marks(keys, thing), keys.face_width)
 
     def sketch(self, keys: SpurGearSpec, thing: SpurGear) -> Sketch:
-        """The wheel with circles for its teeth."""
+        """The wheel with circles for its teeth, those of a sector as they are."""
         from geometry.solids.sketch import Teeth, sketch_of_body
 
+        if thing.sector is not None:
+            return sketch_of_body(self.solid(keys, thing, 0.0))
         teeth = Teeth(thing.tip_radius, thing.root_radius, thing.reference_radius)
         return sketch_of_body(self.solid(keys, thing, 0.0), teeth)
 

@@ -100,3 +100,10 @@ def test_spoiled_files_are_caught(folder: Path, tmp_path: Path, name: str, share
 def test_every_file_is_read_back(folder: Path) -> None:
     found = read_report(folder)["files"]
     assert len([f for f in found if not f.get("failures")]) == len(found) >= 3 * len(EXPORTS)
+
+
+def test_the_blank_of_a_ring_is_read_back_as_it_is(tmp_path: Path) -> None:
+    """Before: places on its long arcs were held against the outside of the rim, which is nearer than a quick look sees."""
+    ring: Keys = {"kind": "ring_gear", "module": 0.5, "number_of_teeth": 60, "face_width": WIDTH,
+                  "sector": {"teeth": 2, "blank_diameter": 33.53}}  # fmt: skip
+    assert run("build", write_scene(tmp_path / "s.toml", {"g": ring}, [{"format": "step"}]), "--out", tmp_path) == 0

@@ -176,6 +176,7 @@ def test_area_of_a_blank_is_that_of_disc_and_teeth() -> None:
         (Sector(18, 0, 1, None, 14.0), "sector.teeth", "sides_of_sector_meet"),
         (Sector(5, 0, 1, None, 14.0, 9.0), "sector.corner_radius", "corner_has_no_room"),
         (Sector(5, 0, 1, 30.0, None, 5.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(5, 0, 1, None, None, 0.3), "sector.corner_radius", "blank_without_corners"),
     ],
 )
 def test_what_has_no_room_is_refused_with_what_has(sector: Sector, name: str, code: str) -> None:
