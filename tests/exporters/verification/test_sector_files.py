@@ -103,7 +103,7 @@ def test_every_file_is_read_back(folder: Path) -> None:
 
 
 def test_the_blank_of_a_ring_is_read_back_as_it_is(tmp_path: Path) -> None:
-    """Before: places on its long arcs were held against the outside of the rim, which is nearer than a quick look sees."""
+    """Before: places on its long arcs were held against the outside of the rim, which a quick look took for nearer."""
     ring: Keys = {"kind": "ring_gear", "module": 0.5, "number_of_teeth": 60, "face_width": WIDTH,
                   "sector": {"teeth": 2, "blank_diameter": 33.53}}  # fmt: skip
     assert run("build", write_scene(tmp_path / "s.toml", {"g": ring}, [{"format": "step"}]), "--out", tmp_path) == 0
