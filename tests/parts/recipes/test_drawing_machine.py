@@ -22,8 +22,8 @@ from parts.cams.disk_cam.part import cam_of
 from parts.scene.load import load_scene, scene_from_dict
 from tests.sampling import examples
 
-# a house with sharp corners, the roof's tip first
-HOUSE = [[0.0, 9.0], [-5.0, 5.0], [-4.0, 0.0], [4.0, 0.0], [5.0, 5.0]]
+# a house with sharp corners and one chimney, the roof's tip first
+HOUSE = [[0.0, 9.0], [-5.0, 5.0], [-4.0, 0.0], [4.0, 0.0], [5.0, 5.0], [3.5, 6.2], [3.5, 8.0], [2.0, 8.0], [2.0, 7.4]]
 
 
 def scene(picture: object = HOUSE, **keys: object) -> dict[str, Any]:
@@ -53,7 +53,8 @@ def lines(file: Path, layer: str) -> list[np.ndarray]:
 def rolled(cam: Path, roller: float, angles: np.ndarray) -> np.ndarray:
     """How far a roller's centre stands from the axis over a cam's outline, along +y of a cam that turns so, rad."""
     (outline,) = lines(cam, "CUT_OUTER")
-    grown = shapely.Polygon(outline).buffer(roller, quad_segs=128)
+    # its last place is the first one again but for rounding
+    grown = shapely.Polygon(outline[:-1]).buffer(roller, quad_segs=128)
     found = []
     for angle in angles:
         way = np.array([math.sin(angle), math.cos(angle)])
@@ -114,9 +115,11 @@ def test_the_cams_of_the_files_draw_the_picture(keys: dict[str, Any], tmp_path: 
     for way in (x, y):
         slope = (np.roll(way, -1) - np.roll(way, 1)) / (angles[2] - angles[0])
         assert math.degrees(np.arctan(np.abs(slope) / way).max()) <= 30.3
-    # the report tells the same
-    mates = json.loads((tmp_path / "s" / "report.json").read_text("utf-8"))["checks"]["mates"]
-    (told,) = [mate for mate in mates if mate["kind"] == "drawing_cams"]
+    # the report tells the same, and the machine stands at the start
+    report = json.loads((tmp_path / "s" / "report.json").read_text("utf-8"))
+    assert report["instances"]["table"]["at"][:2] == pytest.approx([x[0], 0.0], abs=0.005)
+    assert report["instances"]["slide"]["at"][:2] == pytest.approx([0.0, y[0]], abs=0.005)
+    (told,) = [mate for mate in report["checks"]["mates"] if mate["kind"] == "drawing_cams"]
     assert max(told["picture_error"], told["corner_cut"]) == pytest.approx(apart(drawn, engraved[:-1]), abs=0.02)
 
 
@@ -146,7 +149,7 @@ def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.Captu
 @pytest.mark.parametrize(("keys", "code", "key"), [
     ({"picture": [[0, 0], [10, 0], [20, 0]]}, "picture_is_flat", "picture"),
     ({"picture": [[1, 1], [1, 1], [1, 1]]}, "picture_is_flat", "picture"),
-    ({"start_point": 6}, "fewer_corners", "start_point"),
+    ({"start_point": 10}, "fewer_corners", "start_point"),
     ({"smoothing": 40.0}, "rest_within_tolerance", "smoothing"),
     ({"smoothing": 0.01, "size": 200.0, "follower_radius": 40.0}, "cams_too_large", "smoothing"),
     ({"size": 100.0, "greatest_pressure_angle_deg": 5.0}, "cams_too_large", "greatest_pressure_angle_deg"),
