@@ -168,13 +168,11 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if wrong_type is None:
         return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
     types, owner = wrong_type.group(1), _owner(kind, keys[:-1], table)
-    if (
-        "float" in types.split(" | ")
-        and isinstance(value, str)
-        and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value))
-    ):
-        return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
-    is_text = {*types.split(" | ")} - {"null"} == {"str"}
+    may_be = {*types.split(" | ")}
+    if "float" in may_be and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
+        code = "comma_in_number_or_list" if "array" in may_be else "comma_in_number"
+        return SceneError(source, where, value, code, None, whole=comma.group(1), part=comma.group(2))
+    is_text = may_be - {"null"} == {"str"}
     if is_text and isinstance(value, list) and (listed_in := re.match(r"(exports|mates|drives)\[", where)):
         return SceneError(source, where, value, "one_for_each", None, table=listed_in[1])
     if is_text and type(value) in (int, float) and (not words or format_value(value) in words):

@@ -427,6 +427,7 @@ def test_a_word_of_other_books_leads_to_ours_and_no_word_to_one_like_it_by_chanc
         ("calc spur practicum_pair pinion", "pinion: is neither a scene"),
         ("calc train wheels=[20,40]", "did you mean teeth?"),
         ("calc train teeth=20,40 meshes=1-2", "must be a list in brackets or a table"),
+        ("calc power-table x=1,5 y=2", "write 1.5 with a point, or a list in brackets, [1, 5]"),
         ("calc train teeth=20,40,80 meshes=1-2", "did you mean [20, 40, 80]?"),
         ("calc planetary teeth=20;40;100", "did you mean [20, 40, 100]?"),
         ("calc worm module=4 number_of_teeth=40 power=2,2\u043a\u0412\u0442 speed_rpm=1440", "did you mean 2200?"),
