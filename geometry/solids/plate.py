@@ -166,8 +166,11 @@ def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:
 
 def _carrier(edge: Edge, offset: float) -> Edge | None:
     """The moved edge; None where an arc is consumed."""
-    if isinstance(edge, Arc) and edge.radius + math.copysign(offset, edge.sweep * offset) <= 0:
-        return None
+    if isinstance(edge, Arc):
+        # what rounding leaves of a radius is none
+        left = edge.radius + math.copysign(offset, edge.sweep * offset)
+        if left <= _LEAST_ROUNDING * edge.radius:
+            return None
     return edge.offset(-offset)
 
 

@@ -203,6 +203,13 @@ def test_holes_stand_within_a_cut_sector() -> None:
                 checked_gear(made)
 
 
+def test_an_offset_of_just_the_rounding_leaves_sharp_corners() -> None:
+    """Before: what rounding errors left of a rounding's radius was divided by."""
+    made = gear(24, Sector(3, -8, 3, 40.50117757212437, None, 0.3), profile_shift_coefficient=-0.024642006616631046,
+                circumferential_thinning=0.1)  # fmt: skip
+    same(polygon(gear_region(made, 0.3).region.outer), expected(made).buffer(0.3, quad_segs=100), made.tip_radius)
+
+
 def test_an_offset_that_leaves_no_wall_is_refused() -> None:
     with pytest.raises(OffsetError):
         gear_region(gear(24, Sector(5, 0, 1, None, 14.0), bore_diameter=12.0), -0.6)
