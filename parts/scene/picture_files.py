@@ -1,6 +1,6 @@
 """Pictures from files of the user's: ``picture = { file = "heart.svg" }`` becomes the corners of its one line.
 
-A path, polygon or polyline of an SVG, as it is moved and turned there, y upwards. Curves and arcs become chords. A line
+A path or another shape of an SVG, as it is moved and turned there, y upwards. Curves and arcs become chords. A line
 that is open is drawn there and back.
 """
 
@@ -24,7 +24,7 @@ _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7
 _TRANSFORM = re.compile(r"\s*,?\s*(\w+)\s*\(([^)]*)\)")
 # what lies in these is not drawn
 _ASIDE = ("defs", "clipPath", "mask", "symbol", "marker", "pattern", "metadata")
-_OTHERS = ("rect", "circle", "ellipse", "line", "text", "image", "use")
+_OTHERS = ("line", "text", "image", "use")
 
 # z becomes a z + b conj(z) + c
 _Map = tuple[complex, complex, complex]
@@ -119,13 +119,32 @@ def _maps(text: str) -> Iterator[_Map]:
 
 def _lines(element: ElementTree.Element, name: str) -> Iterator[tuple[complex, list[_Piece], bool]]:
     """The lines of an element: where each starts, its pieces, and whether it is closed."""
-    if _tag(element) == "path":
-        yield from _path(element.get("d", ""), name)
+    if _tag(element) in ("path", "rect", "circle", "ellipse"):
+        yield from _path(element.get("d", "") if _tag(element) == "path" else _as_path(element), name)
     if _tag(element) in ("polygon", "polyline"):
         n = [float(number) for number in _NUMBER.findall(element.get("points", ""))]
         corners = [complex(x, y) for x, y in zip(n[::2], n[1::2], strict=False)]
         if corners:
             yield corners[0], [(z, []) for z in corners[1:]], _tag(element) == "polygon"
+
+
+def _as_path(element: ElementTree.Element) -> str:
+    """The data of the path that a shape is (SVG 1.1, 9); none where it has no size."""
+    x, y, width, height, rx, ry, r, cx, cy = (
+        float(found[0]) if (found := _NUMBER.match(element.get(key, ""))) else 0.0
+        for key in ("x", "y", "width", "height", "rx", "ry", "r", "cx", "cy")
+    )
+    if _tag(element) == "rect":
+        rx, ry = min(rx or ry, width / 2), min(ry or rx, height / 2)
+        corner = f"a{rx} {ry} 0 0 1"
+        wide, high = width - 2 * rx, height - 2 * ry
+        data = (
+            f"M{x + rx} {y}h{wide}{corner} {rx} {ry}v{high}{corner} {-rx} {ry}h{-wide}{corner} {-rx} {-ry}"
+            f"v{-high}{corner} {rx} {-ry}z"
+        )
+        return data if width > 0 < height else ""
+    rx, ry = (r, r) if _tag(element) == "circle" else (rx, ry)
+    return f"M{cx - rx} {cy}a{rx} {ry} 0 1 1 {2 * rx} 0a{rx} {ry} 0 1 1 {-2 * rx} 0z" if rx > 0 < ry else ""
 
 
 def _path(text: str, name: str) -> Iterator[tuple[complex, list[_Piece], bool]]:

@@ -94,6 +94,20 @@ def test_polygons_are_lines_and_hidden_ones_none() -> None:
     assert hidden == pytest.approx(np.array(SQUARE))
 
 
+def test_round_shapes_and_rectangles_are_lines() -> None:
+    assert np.abs(corners('<circle cx="3" cy="4" r="5mm"/>') - (3 + 4j)) == pytest.approx(5.0, abs=1e-5)
+    found = corners('<ellipse cx="3" cy="4" rx="5" ry="2" transform="translate(1)"/>') - (4 + 4j)
+    assert (found.real / 5) ** 2 + (found.imag / 2) ** 2 == pytest.approx(1.0, abs=1e-5)
+    assert corners('<rect width="4" height="3"/>') == pytest.approx(np.array(SQUARE))
+    rounded = corners('<rect x="-2" y="-2" width="4" height="4" rx="1"/>')
+    out = np.maximum(np.abs(rounded.real) - 1, 0) + 1j * np.maximum(np.abs(rounded.imag) - 1, 0)
+    assert np.abs(out) == pytest.approx(1.0, abs=1e-5)
+    assert len(rounded) > 100
+    for nothing in ('<circle cx="3"/>', '<rect width="4"/>', '<ellipse rx="4" ry="-1"/>'):
+        with pytest.raises(ParameterError):
+            corners(nothing)
+
+
 def test_an_open_line_is_drawn_there_and_back() -> None:
     assert path("M0 0h4v3h4") == pytest.approx(np.array([0, 4, 4 + 3j, 8 + 3j, 4 + 3j, 4]))
     assert corners('<polyline points="0 0 4 0 4 3"/>') == pytest.approx(np.array([0, 4, 4 + 3j, 4]))
