@@ -177,7 +177,7 @@ def _expanded(keys: PlanetarySetKeys) -> Expansion:
     return making.found
 
 
-PLANETARY_SET = Recipe(PlanetarySetKeys, _expanded)
+PLANETARY_SET = Recipe(PlanetarySetKeys, _expanded, grows=True)
 
 
 def _settled(keys: PlanetarySetKeys) -> _Set:

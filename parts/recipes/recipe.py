@@ -59,8 +59,10 @@ class Recipe(Record, Generic[K]):
     """A kind of assembly: its keys (a msgspec struct, tagged with its name), and what makes plain tables of them.
 
     Ids in the tables are without the assembly's name. Where there is no such assembly, ``expanded`` raises a
-    ParameterError that names the recipe's key.
+    ParameterError that names the recipe's key. One that ``grows`` is a part of larger drives: where a scene adds to it
+    and tells no steps, its own are left out.
     """
 
     keys: type[K]
     expanded: Callable[[K], Expansion]
+    grows: bool = False

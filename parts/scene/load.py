@@ -322,9 +322,7 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
             numbers.append(number)
     _renumber(origins, numbers)
     drives = [drive_spec(t, instances, source, f"drives[{i + 1}]") for i, t in enumerate(raw.get("drives", []))]
-    told = raw.get("steps", [])
-    made = all(origins.get(f"steps[{k}]", "").startswith("assemblies") for k, _ in enumerate(told, 1))
-    steps = step_specs(told, parts, instances, groups, mates, source, recipes_alone=made)
+    steps = step_specs(raw.get("steps", []), parts, instances, groups, mates, source)
     checks = converted(raw.get("checks", {}), ChecksSpec, source, "checks")
     boards = _laid(raw, "boards", BoardSpec, exports, parts, instances, source)
     beds = _laid(raw, "beds", BedSpec, exports, parts, instances, source)

@@ -36,10 +36,11 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     named: dict[str, dict[str, Table]] = {"parts": {}, "instances": {}}
     listed: dict[str, list[Table]] = {"mates": [], "drives": [], "steps": []}
     asked = raw.get("scene", {}).get("language", ENGLISH)
-    told = words(asked if asked in languages() else ENGLISH)
+    told, grow = words(asked if asked in languages() else ENGLISH), True
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
-        prefix, made = _made(in_one(raw, table, source, place), source, place)
+        recipe, prefix, made = _made(in_one(raw, table, source, place), source, place)
+        grow &= recipe.grows
         # one assembly alone is called by no name
         beside = f" ({prefix[:-1]})" if prefix and len(raw["assemblies"]) > 1 else ""
         for name, found in named.items():
@@ -59,6 +60,10 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
             name, _, which = head.partition("[")
             here = f"{name}[{before[name] + int(which[:-1])}].{rest}" if which else f"{head}.{prefix}{rest}"
             origins[here] = f"{place}.{origin}"
+    made_keys = {key for found in named.values() for key in found}
+    added = any(key not in made_keys for name in named for key in tables.get(name, {}))
+    if grow and (added or "mates" in tables) and "steps" not in tables:
+        listed["steps"].clear()
     for name, rows in listed.items():
         own_rows = tables.get(name, [])
         origins |= {f"{name}[{len(rows) + k}]": f"{name}[{k}]" for k, _ in enumerate(own_rows, 1)}
@@ -75,8 +80,8 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     return tables, origins
 
 
-def _made(table: dict[str, Any], source: str, place: str) -> tuple[str, Expansion]:
-    """What begins the ids of one assembly, and its tables."""
+def _made(table: dict[str, Any], source: str, place: str) -> tuple[Recipe[Any], str, Expansion]:
+    """The recipe of one assembly, what begins its ids, and its tables."""
     from parts.recipes.registry import RECIPES
 
     recipe = RECIPES[assembly_kind(table, source, place)]
@@ -86,7 +91,7 @@ def _made(table: dict[str, Any], source: str, place: str) -> tuple[str, Expansio
     except ParameterError as refusal:
         raise placed(source, place, _made_good(recipe, keys, refusal), unit_of(recipe.keys, refusal.name)) from refusal
     made.origins = _handed_on(keys, made) | made.origins
-    return "" if keys.name is None else f"{keys.name}_", made
+    return recipe, "" if keys.name is None else f"{keys.name}_", made
 
 
 def _handed_on(keys: RecipeKeys, made: Expansion) -> dict[str, str]:

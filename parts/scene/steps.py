@@ -70,11 +70,9 @@ class Stage(Record):
 
 def step_specs(
     raw: Sequence[object], parts: Mapping[str, Struct], instances: dict[str, InstanceSpec],
-    groups: Mapping[str, Group], mates: Sequence[MateKeys], source: str, *, recipes_alone: bool = False,
+    groups: Mapping[str, Group], mates: Sequence[MateKeys], source: str,
 ) -> list[StepSpec]:  # fmt: skip
     """The steps of a scene, their groups told out; two models that no mate joins are put together each by itself.
-
-    ``recipes_alone``: none is the scene's own; there are none where it holds more than they bring.
 
     Raises
     ------
@@ -111,8 +109,6 @@ def step_specs(
         whole |= dict.fromkeys((together := {*stage.moved, *stage.standing}), together)
     left = [key for key, one in whole.items() if len(one) == 1]
     if left or any(mate.second not in whole[mate.first] for mate in mates):
-        if recipes_alone:
-            return []
         left = left or [key for key in instances if key not in together]
         raise SceneError(source, "steps", len(found), "never_brought", None, "", left=left[:10])
     return found

@@ -18,6 +18,7 @@ import pytest
 import trimesh
 
 from exporters.command.cli import main
+from parts.scene.load import load_scene, resolved
 from tests.exporters.production.test_motion_files import at as in_film
 from tests.parts.scene.test_laid_cams import frames, rigid, stood
 
@@ -295,6 +296,27 @@ def test_check_finds_it_clear(
     moved = f"[parts.frame]\nslots = [{{ {', '.join(rows)}, width = {slot['width']} }}]\n"
     assert main(["check", str(written(tmp_path, text_of(ALL[name], moved + checks)))]) == 1
     assert "OVERLAP" in "".join(capsys.readouterr())
+
+
+@pytest.mark.parametrize("clearance", [0.0, 0.3])
+@pytest.mark.parametrize("name", ["slotted", "crank_slider"])
+def test_a_pin_is_followed_along_its_slot(
+    name: str, clearance: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It was told that it may overlap by 0.06 mm between 720 poses; beside a slot, or in one too short, it does."""
+    checks = "[checks]\ninterference = true\n"
+    file = written(tmp_path, text_of(ALL[name], checks, clearance=clearance))
+    assert main(["check", str(file)]) == 0
+    assert "may overlap" not in capsys.readouterr().out
+    (slot,) = resolved(load_scene(str(file)))["parts"]["frame"]["slots"]
+    start, end = (complex(*slot[key]) for key in ("start", "end"))
+    way = (end - start) / abs(end - start)
+    beside = (clearance / 2 + 0.1) * 1j * way
+    for first, last in ((start + beside, end + beside), (start, end - 3.0 * way), (start + 3.0 * way, end)):
+        rows = f"start = [{first.real}, {first.imag}], end = [{last.real}, {last.imag}]"
+        moved = f"[parts.frame]\nslots = [{{ {rows}, width = {slot['width']} }}]\n"
+        assert main(["check", str(written(tmp_path, text_of(ALL[name], moved + checks, clearance=clearance)))]) == 1
+        assert "OVERLAP" in "".join(capsys.readouterr())
 
 
 def test_reports_tell_what_calc_tells(made: Callable[[str], Path], capsys: pytest.CaptureFixture[str]) -> None:

@@ -604,19 +604,16 @@ def test_a_set_goes_together_from_below(made: Any, steps: int) -> None:
     assert any("satellite" in row["coming"] and "carrier" in row["standing"] for row in held(one)["hindered"])
 
 
-@pytest.mark.parametrize(
-    "assembly",
-    [{"kind": "planetary_set", "teeth": [24, 24, 72]}, {"kind": "gear_pair_model", "teeth": [13, 21]}],
-)
-def test_beside_parts_of_the_scene_a_recipe_tells_no_order(assembly: dict[str, Any]) -> None:
-    """Two models in a scene, one of which told an order, were refused: it left the other one apart."""
-    more = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20}
-    made = scene_from_dict({"assemblies": [assembly], "parts": {"more": more}}, "t", "t")
-    assert not made.steps
-    own = {"bring": ["more"], "to": "carrier" if assembly["kind"] == "planetary_set" else "frame"}
-    assert scene_from_dict({"assemblies": [assembly], "parts": {"more": more}, "steps": [own]}, "t", "t").steps[
-        -1
-    ].bring == ["more"]
+def test_beside_parts_of_the_scene_a_set_tells_no_order() -> None:
+    """It is a part of larger drives: their scenes were to bring in each of their own parts, or were refused."""
+    raw = {"assemblies": [{"kind": "planetary_set", "teeth": [24, 24, 72]}],
+           "parts": {"more": {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20}}}  # fmt: skip
+    assert not scene_from_dict(raw, "t", "t").steps
+    own = {"bring": ["more"], "to": "carrier"}
+    assert scene_from_dict(raw | {"steps": [own]}, "t", "t").steps[-1].bring == ["more"]
+    # what a scene says of parts of the set adds nothing
+    changed = raw | {"parts": {"sun": {"colour": "#ffffff"}}, "instances": {"sun": {"title": "S"}}}
+    assert len(scene_from_dict(changed, "t", "t").steps) == 5
 
 
 def test_a_herringbone_has_no_order() -> None:
