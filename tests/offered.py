@@ -139,6 +139,14 @@ def scenes() -> dict[str, Raw]:
         "flat arm": _one({"kind": "follower_arm", "end": "flat", "arm_length": 90.0, "boss_diameter": 8.0,
                           "pivot_diameter": 4.0}),
         "plate follower": _one({"kind": "follower", "end": "flat", "plate_diameter": 60.0}),
+        "cut sector": _one(_spur(
+            number_of_teeth=40, bore_diameter=8.0, holes={"count": 1, "diameter": 6.0, "pitch_circle_diameter": 44.0},
+            sector={"teeth": 9, "rest": "cut", "hub_diameter": 20.0, "corner_radius": 1.0})),
+        "mutilated gear": _one(_spur(number_of_teeth=24, bore_diameter=8.0, sector={
+            "teeth": 4, "runs": 2, "first_tooth": 1, "blank_diameter": 36.0, "corner_radius": 0.5})),
+        "ring sector": _one({"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60, "sector": {"teeth": 12}}),
+        "intermittent": _pair("external_gear_pair", _spur(number_of_teeth=24, sector={"teeth": 4, "runs": 2}),
+                              _spur(number_of_teeth=18), intermittent="clockwise", normal_backlash=0.1),
         "mushroom stem": _one({"kind": "follower", "end": "mushroom", "plate_diameter": 40.0, "follower_radius": 60.0}),
     }  # fmt: skip
     return found | _mated(swing, arm, helical)
