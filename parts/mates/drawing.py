@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 # places that are held against the picture, and of a line what rounding may add
 _PLACES, _ROUNDING = 3600, 1e-6
 _LINE = "the closed line that both lifts should draw: [lift of the first, lift of the second], in order"
-_TOLERANCE = mm("how far the line that is drawn and that of the picture may leave each other", above=0, most=1000)
+_LEAVES = "how far the line that is drawn and that of the picture may leave each other"
+_TOLERANCE = mm(_LEAVES, above=0, most=1000, example=0.2)
 
 
 class DrawingCamsSpec(MateKeys, tag="drawing_cams", kw_only=True):
