@@ -49,6 +49,8 @@ if TYPE_CHECKING:
 
 # rollers are kept below this share of the one that undercuts
 _USUAL_ROLLER_SHARE = 0.8
+# a roller in its diameters: no end mill reaches farther, and what proves the walls goes by pieces as small as it
+_SLENDER = 10
 # an arm stays this far from the cam's axis, degrees
 _STEEPEST = 89.0
 # shares of a swing or an arm that are tried
@@ -94,6 +96,9 @@ def _cam_of(keys: BarrelCamSpec) -> BarrelCam:
     from geometry.cams.barrel.cam import AxialGuide, BarrelCam, SwingGuide
 
     motion, table, outer = _motion(keys), keys.oscillating, keys.outer_diameter / 2
+    if keys.groove_depth > _SLENDER * keys.roller_diameter:
+        least = limit(keys.groove_depth / _SLENDER, keys.roller_diameter)
+        raise ParameterError("roller_diameter", keys.roller_diameter, "roller_too_slender", least, most=_SLENDER)
     radius, inner = (keys.roller_diameter + keys.clearance) / 2, keys.outer_diameter / 2 - keys.groove_depth
     guide: Guide
     if table is None:

@@ -209,3 +209,14 @@ def test_the_built_in_scene_has_both_forms() -> None:
 def test_a_bore_and_a_hub_that_no_number_fits_are_not_offered_one() -> None:
     found = refused({"cam": END | {"bore_diameter": 43.9, "hub": {"diameter": 43.95, "above": 3.0}}})
     assert (found.key, found.code, found.nearest) == ("parts.cam.bore_diameter", "no_room_for_hub", None)
+
+
+@pytest.mark.parametrize("keys", [GROOVE, END | {"end_margin": 6.0}, SWING])
+@pytest.mark.parametrize("diameter", [1e-4, 0.1, 0.79])
+def test_rollers_longer_than_ten_diameters_are_refused(keys: dict[str, Any], diameter: float) -> None:
+    """Walls are proven by pieces as small as the roller: a default STL took minutes of one of 0.1 mm, 8 mm long."""
+    found = refused({"cam": keys | {"roller_diameter": diameter}})
+    assert (found.key, found.code) == ("parts.cam.roller_diameter", "roller_too_slender")
+    assert found.nearest is not None
+    assert found.nearest.value == pytest.approx(0.8, abs=1e-12)
+    assert body_of(keys | {"roller_diameter": 0.8}).cam.radius == pytest.approx(0.4)
