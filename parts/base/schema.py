@@ -503,7 +503,7 @@ def starting_value(field: msgspec.structs.FieldInfo, meta: Meta | None) -> str:
     if meta is not None and meta.examples and (is_open(field) or "start" in marks_of(meta)):
         return as_toml(meta.examples[-1])
     tables = tables_of(field)
-    return as_toml(field.default) if not is_open(field) else table_line(tables[0]) if tables else "…"
+    return as_toml(field.default) if not is_open(field) else table_line(tables[0]) if tables else "..."
 
 
 def as_toml(value: object) -> str:

@@ -110,7 +110,7 @@ def test_a_key_that_takes_no_table_is_refused_with_those_that_do(
 
 def test_new_in_english_is_ascii(capsys: pytest.CaptureFixture[str]) -> None:
     """A shell that reads a pipe in its own code page spoils nothing."""
-    for kind in (*KINDS, *MATES):
+    for kind in (*KINDS, *MATES, *RECIPES):
         assert said(capsys, "new", kind).isascii(), kind
 
 
