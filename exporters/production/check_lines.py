@@ -112,8 +112,8 @@ def check_lines(
             walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
             text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"
         lines.append(text)
-        leaves = any(found["code"] == "sector_leaves_mesh" for found in mate.get("findings", []))
         for sector in mate.get("sectors", []):
+            leaves = any(found["code"] == "sector_leaves_mesh" for found in mate.get("findings", []))
             lines += _sector(sector, told, names, enters=sector["intermittent"] or leaves)
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]

@@ -97,8 +97,8 @@ def _cam_of(keys: BarrelCamSpec) -> BarrelCam:
 
     motion, table, outer = _motion(keys), keys.oscillating, keys.outer_diameter / 2
     if keys.groove_depth > _SLENDER * keys.roller_diameter:
-        least = limit(keys.groove_depth / _SLENDER, keys.roller_diameter)
-        raise ParameterError("roller_diameter", keys.roller_diameter, "roller_too_slender", least, most=_SLENDER)
+        works = limit(keys.groove_depth / _SLENDER, keys.roller_diameter)
+        raise ParameterError("roller_diameter", keys.roller_diameter, "roller_too_slender", works, most=_SLENDER)
     radius, inner = (keys.roller_diameter + keys.clearance) / 2, keys.outer_diameter / 2 - keys.groove_depth
     guide: Guide
     if table is None:
