@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 # by default, modules: gap to the tips, height of the nose over them, pivot hole; of that hole the boss; of the root's
-# rounding the nose's; of the shortest length that keeps the boss off the teeth
+# rounding the nose's; of the shortest length that has room for boss and teeth
 _CLEARANCE, _HEIGHT, _HOLE, _BOSS, _NOSE, _LENGTH = 0.1, 0.6, 0.75, 2.0, 1.2, 1.25
 # of the module, where the root is sharp; degrees of a pawl in a ring
 _SHARP, _INWARDS = 0.05, 45.0
@@ -160,8 +160,9 @@ def pawl_of(keys: PawlSpec, wheel: RatchetWheel, module: float) -> PawlShape:
         # there the pivot is nearest to the axis
         usual = tip * max(sine, 0.1)
     else:
-        # where the boss comes to the circle that keeps off the teeth
-        usual = _LENGTH * (math.sqrt((tip * sine) ** 2 + (tip + gap + boss / 2) ** 2 - tip**2) - tip * sine)
+        # where the boss comes to the circle that keeps off the teeth, and a pitch beyond the edge
+        clear = math.sqrt((tip * sine) ** 2 + (tip + gap + boss / 2) ** 2 - tip**2) - tip * sine
+        usual = _LENGTH * max(clear, tip * wheel.pitch_angle + boss / 2)
     nose = keys.nose_radius or (_NOSE * wheel.fillet_radius or _SHARP * module)
     width = keys.tail_width or 0.75 * boss
     tail = (keys.tail_length, math.radians(keys.tail_angle_deg), width) if keys.tail_length else None

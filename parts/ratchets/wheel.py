@@ -25,12 +25,13 @@ _DEPTH, _LAND, _FILLET, _RIM = 0.75, 1.0, 0.1, 1.5
 # of few teeth
 _NOTCH_ANGLE = math.radians(60)
 # what is tried where a key is to blame, in modules or degrees
-_TRIED: dict[str, tuple[float, ...]] = {
+_TRIED: dict[str, tuple[float, ...] | tuple[int, ...]] = {
     "tooth_depth": (0.75, 0.5, 0.25, 0.1, 1.0, 1.5, 2.5),
     "root_fillet_radius": (0.0,),
     "tip_land": (1.0, 0.5, 2.0, 0.2, 2.5),
-    "notch_angle_deg": (60.0, 70.0, 50.0, 80.0, 40.0, 30.0),
-    "front_angle_deg": (0.0,),
+    "notch_angle_deg": (60.0, 70.0, 50.0, 80.0, 40.0, 30.0, 20.0),
+    "front_angle_deg": (0.0, 10.0),
+    "number_of_teeth": (12, 24, 60, 200),
 }
 
 Module = Annotated[float, mm("module m: the outside diameter, of a ring the inside one, is m z", above=0, most=1000,
@@ -158,12 +159,12 @@ def _cured(keys: RatchetWheelSpec, refusal: ParameterError) -> ParameterError:
 
     blamed, usual = refusal.name, _plain(keys)
     sizes = {"tooth_depth": usual.depth, "root_fillet_radius": usual.fillet_radius, "tip_land": usual.land}
-    for key in sorted(_TRIED, key=lambda one: (getattr(keys, one) is None, one != blamed)):
+    for key in sorted(_TRIED, key=lambda one: (one == "number_of_teeth", getattr(keys, one) is None, one != blamed)):
         given = getattr(keys, key)
         if given is None and key == blamed:
             given = sizes.get(key)
-        scale = 1.0 if key.endswith("_deg") else keys.module
-        ends = [share * scale for share in _TRIED[key]]
+        sized = key not in ("notch_angle_deg", "front_angle_deg", "number_of_teeth")
+        ends = [share * keys.module for share in _TRIED[key]] if sized else _TRIED[key]
 
         def fits(value: float, key: str = key) -> bool:
             changed = msgspec.structs.replace(keys, **{key: value})

@@ -118,6 +118,11 @@ class PawlShape(Record, dict=True):
         return start, knee, out
 
     @property
+    def knee(self) -> complex:
+        """Where the underside comes out of the teeth."""
+        return self._under[1]
+
+    @property
     def clear_radius(self) -> float:
         """Of the circle that only the nose passes, mm."""
         return self.wheel.tip_radius + self.wheel.side * self.clearance
@@ -132,7 +137,7 @@ class PawlShape(Record, dict=True):
             apart, reach = self.pivot_distance, self.clear_radius + self.boss_radius
             leaves = cmath.exp(1j * (cmath.phase(self.pivot) + math.acos(min(reach / apart, 1.0))))
             knee, low = self.clear_radius * leaves, self.pivot - self.boss_radius * leaves
-        return Line(self._on_boss(top, -side), top), Line(start, self._under[1]), Line(knee, low)
+        return Line(self._on_boss(top, -side), top), Line(start, self.knee), Line(knee, low)
 
     def _on_boss(self, place: complex, side: int) -> complex:
         """Where a line from a place touches the boss, that on the left of it, or (-1) on the right."""
@@ -199,6 +204,21 @@ class PawlShape(Record, dict=True):
         if not self.wheel.ccw:
             edges = tuple(edge.mirrored() for edge in reversed(edges))
         return PlateOutline(edges)
+
+    def tail_clears(self, lift: float) -> bool:
+        """Whether all of a tail keeps off the teeth where the pawl is swung out so far, rad."""
+        assert self.tail is not None
+        length, angle, width = self.tail
+        side, limit = self.wheel.side, self.clear_radius
+        way = self.towards_pivot * cmath.exp(1j * side * (angle - lift))
+        end, radius = self.pivot + length * way, width / 2
+        if side < 0:
+            return abs(end) + radius <= limit
+        # of its middle line the place nearest to the axis, with the width there
+        share = min(max(-dot(self.pivot, way) / length, 0.0), 1.0)
+        places = ((self.pivot, self.boss_radius), (end, radius))
+        between = self.pivot + share * length * way, self.boss_radius + share * (radius - self.boss_radius)
+        return all(abs(place) - own >= limit for place, own in (*places, between))
 
     # ---- how it rides
 
@@ -350,6 +370,12 @@ def checked_pawl(pawl: PawlShape) -> PawlShape:
         raise ParameterError("nose_height", pawl.nose_height, "no_whole_outline")
     if not side * (pawl.pivot_distance - pawl.clear_radius) >= pawl.boss_radius:
         raise ParameterError(*boss, "boss_reaches_teeth")
-    if not (pawl.swing < math.pi / 2):
+    if not pawl.swing < math.pi / 2:
         raise ParameterError("length", pawl.length, "pawl_cannot_pass")
+    # on its circle about the pivot, from the clear circle on, it keeps off that if it does at last
+    knee = pawl.pivot + (pawl.knee - pawl.pivot) * cmath.exp(-1j * side * pawl.swing)
+    if not side * (abs(knee) - pawl.clear_radius) >= 0:
+        raise ParameterError("length", pawl.length, "pawl_too_short")
+    if pawl.tail is not None and not all(pawl.tail_clears(lift) for lift in (0.0, pawl.swing)):
+        raise ParameterError("tail_length", pawl.tail[0], "tail_reaches_teeth")
     return pawl
