@@ -14,6 +14,7 @@ from geometry.gears.pairs.rack import RackPair
 from geometry.gears.pairs.sliding import active_line
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
+from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, normal_share, transverse_angle
 from parts.base.texts import message
@@ -136,10 +137,30 @@ def overlap_steps(page: Sheet, pair: Pair | RackPair, helical: Helical) -> None:
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
         page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
     face = helical.face
-    if face.helix.angle == 0:
+    if face.helix.angle:
+        face_steps(page, face)
+        page.add("total_contact_ratio", face.overlap_ratio + pair.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
+    _sector_steps(page, pair, face)
+
+
+def _sector_steps(page: Sheet, pair: Pair | RackPair, face: CommonFace) -> None:
+    """Over which angle the teeth of a sector are in mesh, and what it moves by that."""
+    gears: Sequence[SpurGear | RingGear] = pair.gears
+    if all(gear.sector is None for gear in gears):
         return
-    face_steps(page, face)
-    page.add("total_contact_ratio", face.overlap_ratio + pair.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
+    from geometry.gears.pairs.sector_mesh import sector_meshes
+
+    whole = abs(pair.effective_contact_ratio - pair.contact_ratio) <= 1e-9
+    overlap = " + {eps_beta}" if face.helix.angle else ""
+    formula = f"({{z_s#}} - 1 + {'{eps}' if whole else '{eps_eff}'}{overlap}) * 360 / {{z#}}"
+    for place, mesh in sector_meshes(pair, math.copysign(face.overlap_ratio, face.helix.signed_angle)).items():
+        index = place + 1
+        page.add("sector_mesh_angle_deg", math.degrees(mesh.mesh_angle), formula, "", index)
+        if isinstance(pair, RackPair):
+            page.add("sector_travel", mesh.mesh_angle * mesh.rate, "{phi_m#} / 180 * pi * {r#}", "", index)
+        else:
+            moved = f"{{phi_m#}} * {{z#}} / {{z{3 - index}}}"
+            page.add("sector_moves_deg", math.degrees(mesh.mesh_angle * mesh.rate), moved, "", index)
 
 
 def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) -> None:

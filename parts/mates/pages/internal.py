@@ -19,7 +19,7 @@ from parts.base.refusal import SceneError
 from parts.base.texts import N_
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
-from parts.gears.spur_gear.page import given_data, normal_tip_step, shift_data
+from parts.gears.spur_gear.page import given_data, normal_tip_step, sector_data, shift_data
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, rounding_finding
 from parts.keys.base import mm
 from parts.keys.helix import common_face, same_helix
@@ -163,6 +163,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     page.section("Given")
     given_data(page, helical.normal, pinion, helical.angle, 1)
     page.add("number_of_teeth", ring.number_of_teeth, gear=2)
+    sector_data(page, ring, 2)
     shift_data(page, ring.profile_shift_coefficient / math.cos(helical.angle), helical.angle, 2)
     page.add("addendum_coefficient", keys.second.addendum_coefficient, gear=2)
     if ring.circumferential_thinning:
