@@ -80,9 +80,10 @@ def build(
         outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
         previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
         laid = any(assembly.export.is_laid for assembly in plan.assemblies)
-        if len(plan.placing.instances) > 1 and (laid or len(wanted) == len(plan.parts)):
-            # what is not cut from boards or printed on plates belongs to the model all the same
-            rest = {p: outlines_of(plan.parts[p].section(0.0).region) for p in plan.parts if p not in wanted}
+        others = {key: part for key, part in plan.parts.items() if key not in wanted}
+        # rods that are cut to length, and what boards and plates have no room for, belong to the model all the same
+        if len(plan.placing.instances) > 1 and (laid or all(part.stock for part in others.values())):
+            rest = {key: outlines_of(part.section(0.0).region) for key, part in others.items()}
             previews.append(scene_preview(plan, {**outlines, **rest}, checks, staging))
             if plan.scene.steps:
                 from exporters.production.exploded_preview import exploded_preview

@@ -244,3 +244,14 @@ def test_numbers_of_a_path_are_tenths_without_a_zero_before_their_point(view: st
     for data in re.findall(r' d="(M[^"]*l[^"]*)"', view):
         assert re.fullmatch(r"(M-?\d*\.?\d,-?\d*\.?\d l?|[Ml]|-?(?:[1-9]\d*|0)?(?:\.[1-9])?|[, z])*", data), data[:80]
         assert not re.search(r"(?<!\d)0\.", data)
+
+
+def test_a_set_for_the_laser_is_drawn_apart_with_the_rods_that_no_file_cuts(tmp_path: Path) -> None:
+    """Its pins, feet and shaft are cut to length from rods; one part alone makes no picture of the whole."""
+    assert main(["build", "james_laser", "--format", "dxf", "--out", str(tmp_path), "-q"]) == 0
+    pictures = {file.name for file in (tmp_path / "james_laser").glob("james_laser*.preview.svg")}
+    assert pictures == {"james_laser.preview.svg", "james_laser.exploded.preview.svg"}
+    drawn = (tmp_path / "james_laser/james_laser.exploded.preview.svg").read_text("utf-8")
+    assert all(word in drawn for word in ("Shaft", "Foot", "Satellite", "Hand crank"))
+    assert main(["build", "james_laser", "--part", "sun", "--out", str(tmp_path / "one"), "-q"]) == 0
+    assert not [*(tmp_path / "one/james_laser").glob("james_laser*.preview.svg")]
