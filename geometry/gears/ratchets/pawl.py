@@ -4,7 +4,7 @@ Seated, its face lies on the working face of tooth 1 and its round nose on the b
 the wheel turns freely the pawl swings about its pivot; of all pairs of a feature of the pawl (nose, underside, face)
 and one of the wheel (back, land, edges) each has its angle of touching in closed form, and the greatest of those
 that lie on both is where the pawl stands. The face that is farther from the pivot the deeper it reaches passes an edge
-only when that is beyond the nose's reach: the wheel overruns by so much, and the pawl drops then.
+only when that is beyond the nose's reach: the wheel overruns by so much, and the pawl drops then (DERIVATIONS.md, 27).
 
 Frames: all here is in the frame of the wheel that is free counter-clockwise, the pawl seated at tooth 1; the outline
 is in the pawl's own: the pivot is the origin, the edge that it holds lies on +x.

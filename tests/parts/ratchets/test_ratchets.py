@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from typing import Any
 
 import pytest
@@ -12,6 +13,7 @@ from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
+from tests.geometry.gears.ratchets.test_ratchets import ridden
 from tests.sampling import some_of
 
 Keys = dict[str, Any]
@@ -160,6 +162,50 @@ def test_a_pawl_that_leans_is_as_long_as_its_teeth_need(teeth: int, line: float)
     """Its default length: one whose pivot stood before the knee of its underside ran into the teeth."""
     _, checks = placed(WHEEL | {"number_of_teeth": teeth}, PAWL | {"line_angle_deg": line})
     assert checks["mates"][0]["verdict"] == "contact"
+
+
+def random_ratchet(draw: random.Random) -> tuple[Keys, Keys]:
+    """Any keys within what is common, and a little beyond."""
+    module = draw.choice([1.0, 2.5, 5.0, 10.0])
+    wheel: Keys = {"kind": "ratchet_wheel", "module": module, "number_of_teeth": draw.choice([6, 8, 12, 20, 30, 90]),
+                   "internal": draw.random() < 0.4, "front_angle_deg": draw.uniform(-5, 30),
+                   "turns": draw.choice(["ccw", "cw"])}  # fmt: skip
+    pawl: Keys = dict(PAWL)
+    may: list[tuple[Keys, str, float, float]] = [
+        (wheel, "notch_angle_deg", draw.uniform(30, 80), 1.0), (wheel, "tip_land", draw.uniform(0.1, 2.0), module),
+        (wheel, "tooth_depth", draw.uniform(0.2, 1.4), module),
+        (wheel, "root_fillet_radius", draw.choice([0.0, 0.02, 0.2]), module),
+        (pawl, "line_angle_deg", draw.uniform(15, 75) if wheel["internal"] else draw.uniform(-15, 40), 1.0),
+        (pawl, "length", draw.uniform(1.5, 12), module), (pawl, "clearance_angle_deg", draw.uniform(0, 40), 1.0),
+        (pawl, "nose_radius", draw.uniform(0.02, 0.5), module), (pawl, "tail_length", draw.uniform(1.5, 5), module),
+    ]  # fmt: skip
+    for keys, key, value, unit in may:
+        if draw.random() < 0.35:
+            keys[key] = value * unit
+    return wheel, pawl
+
+
+@pytest.mark.parametrize("seed", some_of(range(60), 8))
+def test_a_random_ratchet_rides_or_is_refused(seed: int) -> None:
+    """What builds touches all the way and overlaps nowhere, where polygons say so; what is offered builds."""
+    draw = random.Random(seed)
+    wheel, pawl = random_ratchet(draw)
+    refused = refusal(wheel, pawl)
+    if refused is not None:
+        if refused.nearest is not None:
+            owner, _, key = refused.key.removeprefix("parts.").partition(".")
+            (wheel if owner == "wheel" else pawl)[key] = refused.nearest.value
+            again = refusal(wheel, pawl)
+            assert again is None or again.key != refused.key
+        return
+    placing, checks = placed(wheel, pawl)
+    assert checks["mates"][0]["verdict"] == "contact"
+    assert {one.id for one in placing.instances} == {"wheel", "pawl"}
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": wheel, "pawl": pawl}}, "t", "t"), "t")
+    shape = made["pawl"].thing.shape
+    turn = shape.overrun + draw.uniform(0.05, 0.95) * shape.wheel.pitch_angle
+    found, _ = ridden(shape, turn)
+    assert shape.stands(turn) == pytest.approx(found, abs=1e-3)
 
 
 def test_a_pawl_is_for_one_wheel() -> None:
