@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import NamedTuple
 
-from geometry.base.angles import involute_function
+from geometry.base.angles import involute_function, tangent_length
 from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
@@ -31,6 +31,8 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Label
 
 Pair = ExternalPair | InternalPair | RackPair
+# of a pitch: what is whole but for rounding
+_SAME = 1e-9
 
 
 class Sense(NamedTuple):
@@ -47,7 +49,7 @@ class SectorMesh(Record):
     ``first``, ``last``: of the outer teeth of the first run, in the sector; ``twist``: by how much teeth turn from face
     to face. ``rate``: the mate's motion, rad or mm, for one rad. ``entry_margin``: along the tips of a mate that stands
     where the last tooth has left it, from where those of the first tooth pass them to the nearest tip land, mm: below 0
-    they run into each other.
+    they run into each other, or its flank would push the tooth that it meets back.
     """
 
     teeth: int
@@ -97,9 +99,9 @@ class Steps(Record, dict=True):
     """A second that a first with a sector moves while its teeth touch, turning ``way`` (1, -1), and that stands else.
 
     The last tooth of a run leaves the line of contact at its tip, whose corner pushes the mate's flank on until it
-    slips off where the tip circles cross; there the mate is left. The first tooth of the next run meets the last tooth
-    that then stands within the tip circle of the sector, ``ahead`` pitches behind the one that was left, and pushes its
-    corner until both touch on the line of contact. So n teeth move the mate by n - 1 + ``ahead`` of its own.
+    slips off where the tip circles cross, or pushes no more; there the mate is left. The first tooth of the next run
+    meets the last one that then stands within the tip circle of the sector, ``ahead`` pitches behind the one that was
+    left, and pushes its corner until both touch on the line of contact. So n teeth move the mate by n - 1 + ``ahead``.
     Directions are those of a tooth's centre line as ``SectorMesh`` has them; a ``conjugate`` one tells where the mate
     stands: where a tooth there, its flanks long enough, would touch it on the line of contact.
     """
@@ -108,10 +110,10 @@ class Steps(Record, dict=True):
     pair: ExternalPair
     way: int
 
-    @cached_property
+    @property
     def ahead(self) -> int:
         """How many pitches behind the tooth that the last one has left stands the one that the first one meets."""
-        return math.floor(2 * _met(self.pair, 0) / self.pair.second.pitch_angle)
+        return _ahead(self.pair, 0)
 
     @property
     def moved(self) -> int:
@@ -119,34 +121,39 @@ class Steps(Record, dict=True):
         return self.mesh.teeth - 1 + self.ahead
 
     @cached_property
+    def line(self) -> Sense:
+        """Where a tooth stands as contact on the line of action begins at the mate's tip and ends at its own.
+
+        A flank that is cut away there is taken as whole: it would push a little less.
+        """
+        pair, alpha = self.pair, self.pair.working_pressure_angle
+        own, mate = (tangent_length(r, g.base_radius) for r, g in zip(pair.tip_form_radii, pair.gears, strict=True))
+        low, off = pair.working_centre_distance * math.sin(alpha) - mate, alpha + pair.first.base_half_angle
+        return Sense(max(low, 0.0) / pair.first.base_radius - off, own / pair.first.base_radius - off)
+
+    @cached_property
     def left(self) -> float:
-        """Where a tooth stands as its tip slips off that of the mate."""
-        (own, tip), a = self._tips, self.pair.working_centre_distance
-        return _angle((a**2 + own**2 - tip**2) / (2 * a * own)) - _half(self.pair.first, own)
+        """Where a tooth stands as its tip leaves that of the mate."""
+        return max(_left(self.pair, 0)[0], self.line.high)
 
     @cached_property
     def stands(self) -> float:
         """Conjugate direction of the first tooth while the mate stands."""
-        return self._pushed_on(self.left) - self.ahead * self.mesh.pitch
+        return max(self._pushed_on(self.left), self.line.high) - self.ahead * self.mesh.pitch
 
     @cached_property
     def first_touch(self) -> float:
         """Where the first tooth stands as it first touches the standing mate."""
-        return self._pushed(self.stands) if self.stands < self.mesh.low else self.stands
+        return min(self._pushed(self.stands), self.line.low) if self.stands < self.line.low else self.stands
 
     @property
     def rest(self) -> float:
         """Over which the sector turns from run to run while the mate stands; not above 0: it never does."""
         return self.mesh.turn - (self.left - self.first_touch + self.mesh.last - self.mesh.first)
 
-    @property
-    def _tips(self) -> tuple[float, float]:
-        """Radii at which the flanks of the sector and of its mate end, mm."""
-        return self.pair.tip_form_radii
-
     def _pushed(self, conjugate: float) -> float:
         """Where the first tooth stands as its flank touches the tip corner of the mate's tooth."""
-        (_, tip), mate = self._tips, self.pair.second
+        tip, mate = self.pair.tip_form_radii[1], self.pair.second
         low = _contact(self.pair, 1).low
         turned = low + (self.mesh.high - conjugate) * self.mesh.rate + _half(mate, tip)
         corner = self.pair.working_centre_distance - cmath.rect(tip, turned)
@@ -154,7 +161,7 @@ class Steps(Record, dict=True):
 
     def _pushed_on(self, at: float) -> float:
         """Conjugate direction as the tip corner of a tooth that stands so touches the mate's flank."""
-        (own, _), mate = self._tips, self.pair.second
+        own, mate = self.pair.tip_form_radii[0], self.pair.second
         corner = self.pair.working_centre_distance - cmath.rect(own, at + _half(self.pair.first, own))
         turned = cmath.phase(corner) - _half(mate, abs(corner))
         return self.mesh.high + (_contact(self.pair, 1).low - turned) / self.mesh.rate
@@ -167,13 +174,33 @@ class Steps(Record, dict=True):
 
     def _conjugate(self, at: float) -> float:
         """Conjugate direction of the first tooth, which stands so, or has passed."""
-        mesh = self.mesh
-        others = mesh.last - mesh.first
-        if at >= mesh.high + others:
-            return self._pushed_on(min(at - others, self.left)) + others
-        if at >= mesh.low or at <= self.first_touch:
-            return max(at, self.stands) if at >= mesh.low else self.stands
-        return bracketed_root(lambda tried: self._pushed(tried) - at, self.stands, mesh.low).value
+        others, (low, high) = self.mesh.last - self.mesh.first, self.line
+        if at >= high + others:
+            return max(self._pushed_on(min(at - others, self.left)), high) + others
+        if at >= low or at <= self.first_touch:
+            return max(at, self.stands) if at >= low else self.stands
+        if at >= self._pushed(low):
+            return low
+        return bracketed_root(lambda tried: self._pushed(tried) - at, self.stands, low).value
+
+
+def _left(pair: ExternalPair, index: int) -> tuple[float, float]:
+    """Where teeth of a sector at a place in its pair and of the mate stand as the tip of one leaves the other's flank.
+
+    It slips off where the tip circles cross, or before that no longer pushes: as the flank's normal goes through the
+    sector's axis, it has turned the mate as far as it will.
+    """
+    gear, mate, a = pair.gears[index], pair.gears[1 - index], pair.working_centre_distance
+    own, tip = pair.tip_form_radii[index], pair.tip_form_radii[1 - index]
+    towards = min(_angle((a**2 + own**2 - tip**2) / (2 * a * own)), math.asin(mate.base_radius / a))
+    corner = a - cmath.rect(own, towards)
+    return towards - _half(gear, own), cmath.phase(corner) - _half(mate, abs(corner))
+
+
+def _ahead(pair: ExternalPair, index: int) -> int:
+    """Of ``Steps``: the last tooth whose flank then ends within the tip circle of the sector."""
+    mate, tip = pair.gears[1 - index], pair.tip_form_radii[1 - index]
+    return math.floor((_met(pair, index) - _half(mate, tip) - _left(pair, index)[1]) / mate.pitch_angle + _SAME)
 
 
 def _half(gear: SpurGear, radius: float) -> float:
@@ -220,6 +247,14 @@ def _entry_margin(pair: Pair, index: int) -> float:
         met = math.sqrt(max(gear.tip_radius**2 - line**2, 0.0))
         return abs(math.remainder(2 * met + half, pair.rack.pitch)) - half
     mate, half = pair.gears[1 - index], _land(pair.sides[1 - index])
+    if isinstance(pair, ExternalPair):
+        left, met = _left(pair, index)[1], _met(pair, index)
+        corner = (
+            left + _ahead(pair, index) * mate.pitch_angle + _half(pair.gears[1 - index], pair.tip_form_radii[1 - index])
+        )
+        # beyond there a flank that touches the corner pushes it back
+        back = math.asin(pair.gears[index].base_radius / pair.working_centre_distance) - corner
+        return mate.tip_radius * min(abs(math.remainder(left - met, mate.pitch_angle)) - half, back)
     return mate.tip_radius * (abs(math.remainder(2 * _met(pair, index) + half, mate.pitch_angle)) - half)
 
 
