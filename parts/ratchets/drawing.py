@@ -31,7 +31,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     angles = {"front_angle": keys.front_angle_deg, "notch_angle": math.degrees(wheel.cut_angle)}
     words = subject.words("ratchet_angles", **{key: subject.say(value) for key, value in angles.items()})
     views = section, _with_teeth(face, wheel, subject.language), *others
-    return replace(drawn, views=views, requirements=(*drawn.requirements, words))
+    turns = subject.words(f"ratchet_{keys.turns}")
+    return replace(drawn, views=views, requirements=(*drawn.requirements, words, turns))
 
 
 def _ring(wheel: RatchetWheel, subject: Subject) -> PartDrawing:
