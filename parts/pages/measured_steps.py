@@ -12,7 +12,7 @@ from geometry.base.tolerance import is_told
 from geometry.gears.teeth import measurement
 from geometry.gears.teeth.measurement import SPAN_CONTACT, Measured, Span
 from geometry.gears.teeth.ring import RingGear
-from parts.base.texts import N_, Text
+from parts.base.texts import N_, Text, Told
 from parts.pages.page import Sheet
 
 ISO = "ISO 21771"
@@ -267,7 +267,8 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
             if helix
             else N_("a pin of {diameter:.4g} mm touches no involute or is sunk; {least:.4g} to {greatest:.4g} mm touch")
         )
-        page.note(told, diameter=pin, least=low, greatest=high)
+        low, high = measurement.measuring_limits(gear, helix)
+        page.note(told, diameter=pin, least=Told(low, up=True), greatest=Told(high, up=False))
     if helix:
         page.note(_same_with_pins(gear, even=even))
 

@@ -246,8 +246,23 @@ def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> 
     pin = sense * pin_diameter
     length = 2 * centre * (math.cos(math.pi / (2 * gear.number_of_teeth)) if odd else 1.0) + pin
     touches = tangent >= 0 and _on_flank(gear, contact)
-    stands_out = min(sense * (centre + pin / 2 - gear.tip_radius), sense * (centre - pin / 2 - gear.root_radius)) > 0
-    return OverPins(pin_diameter, length, 2 * centre, 2 * contact, touches, stands_out)
+    return OverPins(pin_diameter, length, 2 * centre, 2 * contact, touches, _out(gear, centre, pin_diameter) > 0)
+
+
+def _out(gear: Measured, centre: float, pin_diameter: float) -> float:
+    """How far pins reach beyond the tip circle and stand off the root circle, the less of both, mm."""
+    sense, pin = gear.sign, gear.sign * pin_diameter / 2
+    return min(sense * (centre + pin - gear.tip_radius), sense * (centre - pin - gear.root_radius))
+
+
+def measuring_limits(gear: Measured, helix_angle: float = 0.0) -> tuple[float, float]:
+    """The least and greatest pins, mm, that touch the involute and stand out; where none does, those that touch."""
+    low, high = pin_limits(gear, helix_angle)
+
+    def out(pin: float) -> float:
+        return _out(gear, over_pins(gear, pin, helix_angle).centre_diameter / 2, pin)
+
+    return (bracketed_root(out, low, high).value if out(low) < 0 < out(high) else low), high
 
 
 def gear_with_span(gear: G, teeth: int, length: float, helix_angle: float = 0.0) -> G:

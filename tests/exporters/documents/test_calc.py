@@ -1320,3 +1320,24 @@ def test_the_diameter_at_which_a_tooth_is_pointed_is_typed_back_as_it_is_told(se
     with pytest.raises(SceneError) as refusal:
         calculate("spur", [*words, f"tip_diameter={beyond!r}"], "text", "en")
     assert refusal.value.code == "tooth_pointed"
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_pins_that_a_note_tells_are_typed_back(seed: int) -> None:
+    """The least one was sunk below the tips of every other gear; it stands out, and one a little thinner does not."""
+    draw = random.Random(seed)
+    words = [f"module={draw.choice([1, 2])}", f"number_of_teeth={draw.randint(20, 60)}",
+             f"profile_shift_coefficient={round(draw.uniform(-0.2, 0.5), 2)}"]  # fmt: skip
+    noted = re.compile(r"a pin of .* mm touches no involute or is sunk; ([\d.]+) to ([\d.]+) mm touch")
+
+    def note(pin: str) -> re.Match[str] | None:
+        return noted.search(calculate("spur", [*words, f"pin_diameter={pin}"], "text", "en"))
+
+    thick = note(f"{6 * int(words[0][-1])}")
+    assert thick is not None
+    for told, way in ((thick[1], -2), (thick[2], 2)):
+        assert note(told) is None
+        assert note(repr(float(told) + way * 10.0 ** -len(told.partition(".")[2]))) is not None
+    # ISO 21771, by hand: the pin reaches beyond the tip circle
+    page = json.loads(calculate("spur", [*words, f"pin_diameter={thick[1]}"], "json", "en"))["values"]
+    assert page["pin_centre_diameter"] + float(thick[1]) > page["tip_diameter"]
