@@ -267,7 +267,7 @@ def _room_failures(
     pairs = [(a, b) for a, b in near if a < b]
     if not pairs:
         return
-    gaps = [_distance(material[a], material[b], board.gap + 1.0) - 2 * _SAG for a, b in pairs]
+    gaps = [distance_within(material[a], material[b], board.gap + 1.0) - 2 * _SAG for a, b in pairs]
     nearest = int(np.argmin(gaps))
     measured["least_gap"] = gap = gaps[nearest]
     a, b = (expected.pieces[k].id for k in pairs[nearest])
@@ -275,14 +275,17 @@ def _room_failures(
     yield from unless(gap >= board.gap - _KEPT, told, a=a, b=b, nearest=gap, gap=board.gap)
 
 
-def _distance(one: BaseGeometry, two: BaseGeometry, reach: float) -> float:
-    """The distance of two pieces within ``reach`` of each other, mm: of what each has near the other's box."""
+def distance_within(one: BaseGeometry, two: BaseGeometry, reach: float) -> float:
+    """The distance of two pieces within ``reach`` of each other, mm: of what each has near the other's box.
+
+    A box that one only touches holds nothing of it, so that it is as much wider.
+    """
     import shapely
 
     parts = []
     for own, other in ((one, two), (two, one)):
         low_x, low_y, high_x, high_y = other.bounds
-        box = low_x - reach, low_y - reach, high_x + reach, high_y + reach
+        box = low_x - 2 * reach, low_y - 2 * reach, high_x + 2 * reach, high_y + 2 * reach
         parts.append(shapely.clip_by_rect(own.boundary, *box))
     return float(shapely.distance(*parts))
 

@@ -21,6 +21,7 @@ from exporters.boards.nest import Room, nest
 from exporters.command.cli import main
 from exporters.formats.read_svg import read_svg
 from exporters.production.recheck import recheck
+from exporters.verification import board
 
 PARTS = """
 [parts.ring]
@@ -525,3 +526,15 @@ def test_a_board_that_is_too_small_is_told_how_large_it_must_be(
     assert 70 <= least < 70.2
     assert "boards.b.height" in refusal(least - 1e-4)
     assert refusal(least) == ""
+
+
+def test_a_piece_that_a_box_about_another_only_touches_has_its_distance() -> None:
+    """Spacers that stand just as far apart as neighbours are looked for were told to lie nan mm apart: clipped by a box
+    that it touches at a point, nothing is left of one. By shapely, of the whole pieces.
+    """
+    for reach in (1.5, 3.0, 4.25):
+        for radius in (2.0, 5.1, 7.5):
+            one, two = (shapely.Point(x, 9.0).buffer(radius) for x in (8.0, 8.0 + 2 * radius + reach))
+            apart = float(shapely.distance(one, two))
+            assert board.distance_within(one, two, apart) == apart
+            assert board.distance_within(two, one, 2 * reach) == apart
