@@ -17,6 +17,7 @@ from exporters.production.preview import outlines_of, part_preview, scene_previe
 from exporters.production.report import NAME, whole_report, write_report
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, limit, rounded
+from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
 from parts.base.refusal import SceneError, placed
@@ -180,6 +181,9 @@ def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -
     seconds = {"write": time.perf_counter() - start}
     max_error, bound = job.declared(made)
     findings = job.findings(made)
+    # a film has no more values than a viewer takes
+    if max_error > job.tolerance:
+        findings = (*findings, Finding("coarser_than_asked", max_error, job.tolerance))
     if not verify:
         return Written(job, file, max_error, bound, entities, {}, findings, (), seconds)
     start = time.perf_counter()

@@ -225,6 +225,38 @@ def test_a_tolerance_that_is_offered_serves_every_part(export: str, tmp_path: Pa
         build(plan(0.99 * float(offered.value)), tmp_path)
 
 
+RATCHET = """[parts.wheel]
+kind = "ratchet_wheel"
+module = 5.0
+number_of_teeth = 24
+face_width = 4.0
+[parts.pawl]
+kind = "pawl"
+of = "wheel"
+face_width = 4.0
+[[mates]]
+kind = "ratchet_pair"
+first = "wheel"
+second = "pawl"
+[[drives]]
+instance = "wheel"
+turns = {turns}
+[[exports]]
+format = "glb"
+tolerance = 0.02
+"""
+
+
+@pytest.mark.parametrize(("turns", "told"), [(1.0, True), (0.03, False)])
+def test_a_film_that_is_coarser_than_asked_says_so(tmp_path: Path, turns: float, told: bool) -> None:
+    """A pawl drops off 24 teeth in a turn; over less than one tooth it does not."""
+    (tmp_path / "r.toml").write_text(RATCHET.format(turns=turns), encoding="utf-8")
+    assert run("build", tmp_path / "r.toml", "--out", tmp_path / "o") == 0
+    (film,) = json.loads((tmp_path / "o" / "r" / "report.json").read_text("utf-8"))["files"]
+    assert (film["max_error"] > 0.02) == told
+    assert [f["code"] for f in film["findings"] if f["code"] == "coarser_than_asked"] == ["coarser_than_asked"] * told
+
+
 def test_a_scene_without_drives_has_no_film() -> None:
     with pytest.raises(SceneError, match="shows what a drive moves"):
         planned(FREE + GLB)
