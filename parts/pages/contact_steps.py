@@ -13,11 +13,11 @@ from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.pairs.sliding import active_line
 from geometry.gears.teeth import limits
-from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
+from geometry.gears.teeth.limits import LEAST_CONTACT_RATIO, LEAST_TIP_THICKNESS
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, normal_share, transverse_angle
-from parts.base.texts import message
+from parts.base.texts import N_, message
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
@@ -274,6 +274,11 @@ def limit_steps(page: Sheet, pair: Pair | RackPair, gears: Sequence[SpurGear], h
         page.add("least_shift_without_undercut", least, "", "ISO 21771", index, symbol=symbol)
     least = LEAST_TIP_THICKNESS * pair.module
     page.add("least_tip_thickness", least, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
+    if not helical.angle:
+        page.add("least_contact_ratio", LEAST_CONTACT_RATIO, "", "practicum, lesson 1")
+        if 1 <= pair.effective_contact_ratio < LEAST_CONTACT_RATIO:
+            text = N_("contact ratio {value:.4f} is below {least:g}, which the practicum asks of shifted wheels")
+            page.note(text, value=pair.effective_contact_ratio, least=LEAST_CONTACT_RATIO)
     found = [(f, 0) for f in helical.face.findings(pair.findings(), pair.effective_contact_ratio)]
     for index, gear in enumerate(gears, 1):
         found += [(f, index) for f in limits.findings(gear, helical.angle) if f.code != "thin_rim"]

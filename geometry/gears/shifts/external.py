@@ -22,7 +22,12 @@ from geometry.gears.shifts.hills import marked
 from geometry.gears.shifts.racked_teeth import RackedTeeth
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.joints import form_length
-from geometry.gears.teeth.limits import Margin, least_shift_without_undercut
+from geometry.gears.teeth.limits import (
+    LEAST_CONTACT_RATIO,
+    LEAST_TIP_THICKNESS,
+    Margin,
+    least_shift_without_undercut,
+)
 from geometry.gears.teeth.spur import SpurGear
 
 if TYPE_CHECKING:
@@ -211,8 +216,8 @@ class Requirements(Record):
     The defaults are those of practicum 1, below (1.3).
     """
 
-    tip_thickness: float = 0.3
-    contact_ratio: float = 1.1
+    tip_thickness: float = LEAST_TIP_THICKNESS
+    contact_ratio: float = LEAST_CONTACT_RATIO
     allow_undercut: bool = False
     pole_inside: bool = False
 

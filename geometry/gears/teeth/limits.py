@@ -27,6 +27,8 @@ G = TypeVar("G", "SpurGear", "RingGear")
 
 # practicum, condition below (1.3): S_a >= 0.3 m
 LEAST_TIP_THICKNESS = 0.3
+# contact ratio of a pair at least, by the same page
+LEAST_CONTACT_RATIO = 1.1
 # modules: shorter chamfers, roundings and thinnings are not offered
 _LEAST_OFFERED = 1e-6
 

@@ -46,7 +46,13 @@ _FINE = 3600
 _LEFT, _ASIDE = 1e-6, 1e-3
 # lengths that are told as they are drawn too
 _DRAWN = ("first_rod_length", "frame_length", "lever_length", "lever_arm_length", "second_rod_length",
-          "second_rocker_length")  # fmt: skip
+          "second_rocker_length", "second_frame_length")  # fmt: skip
+# what the directions of links are called
+_DIRECTIONS = {"2": "first_rod_angle_deg", "3": "lever_angle_deg", "4": "second_rod_angle_deg",
+               "5": "second_rocker_angle_deg"}  # fmt: skip
+# keys by which an assignment's links may be made to stand otherwise
+_STANDING = ("frame_angle_deg", "first_side", "arm_angle_deg", "pivot_angle_deg", "guide_height", "guide_angle_deg",
+             "second_side")  # fmt: skip
 # length of the crank on a drawing, mm; shares of a sheet that the scheme takes, along and across
 _DRAWN_CRANK, _SHARE = 30.0, 0.5 + 0.5j
 # keys that choose the others
@@ -238,9 +244,10 @@ class _Page:
             lengths += [("lever_arm_length", keys.arm_length or keys.lever_length)]
             lengths += [("lever_arm_angle_deg", keys.arm_angle_deg), ("second_rod_length", keys.rod_length)]
         if keys.second == "rocker":
-            lengths += [("second_rocker_length", keys.rocker_length)]
+            lengths += [("second_rocker_length", keys.rocker_length), ("second_frame_length", keys.pivot_distance)]
+            lengths += [("second_frame_angle_deg", keys.pivot_angle_deg)]
         if "slider" in (keys.first, keys.second):
-            lengths += [("guide_offset", keys.guide_height)]
+            lengths += [("guide_offset", keys.guide_height), ("slider_guide_angle_deg", keys.guide_angle_deg or None)]
         for name, value in lengths:
             if value is not None:
                 page.add(name, value, given=True)
@@ -280,7 +287,7 @@ class _Page:
         if at.reach is not None:
             formula = "sqrt({l_0}**2 + {l_1}**2 - 2 * {l_0} * {l_1} * cos({phi_1} - {gamma_0}))"
             self.page.add("stone_distance", float(at.reach[0]), formula)
-        for link, name in (("2", "first_rod_angle_deg"), ("3", "lever_angle_deg"), ("4", "second_rod_angle_deg")):
+        for link, name in _DIRECTIONS.items():
             if link in at.links:
                 self.page.add(name, math.degrees(at.angle(link)))
         if self.between is not None:
@@ -783,10 +790,17 @@ class _Page:
                 rows = message("rows {a}, {b}, {c} of columns a, b, v", a=one, b=more[0], c=more[1])
             page.note("assignment {number}, {rows}: {machine}", number=self.number, rows=rows, machine=machine)
             if self.number != 1:
+                free = ", ".join(name for name in _STANDING if name not in unused(self.keys))
                 page.note(
                     "the figure of this assignment is lost: how its links stand is the usual scheme of such a "
-                    "machine, assumed; frame_angle_deg, arm_angle_deg, guide_height, first_side and second_side "
-                    "change it"
+                    "machine, assumed; what may be told otherwise: {keys}",
+                    keys=free,
+                )
+            if levers.second is None:
+                page.note(
+                    "the machine has a second cylinder, whose links 4 and 5 are as 2 and 3 on the same crank: n = 5, "
+                    "p_5 = 7, W = 1; its numbers are those of this page for start_angle_deg less the angle from the "
+                    "first guide to the second; forces and flywheel are here those of one cylinder"
                 )
         if isinstance(levers.first, Stone):
             assert self.turn.reach is not None

@@ -338,6 +338,75 @@ def test_every_assignment_moves_all_round(assignment: int) -> None:
             assert 0.9 * value(data, "H") < travel <= value(data, "H") * (1 + 1e-9)
 
 
+AGAIN = [(f"assignment={number}", f"variant={row}") for number in range(1, 11) for row in (1, 4, 9)]
+
+
+@pytest.mark.parametrize(
+    "keys", [*AGAIN, ("assignment=4", "guide_angle_deg=20"), ("assignment=8", "guide_angle_deg=70")], ids=str
+)
+def test_a_page_is_reckoned_again_from_what_it_gives(keys: tuple[str, ...]) -> None:
+    """Both loops close in every position, with their first and second derivatives: by the section "Given" alone."""
+    data = calculated(*keys)
+    given = {s["symbol"]: s["value"] for s in data["steps"] if s["section"] == "Given"}
+
+    def turned(row: dict[str, float], link: str, length: float, more: float = 0.0) -> np.ndarray:
+        """A vector of a link, its velocity and acceleration."""
+        rate, change = (given["ω_1"], 0.0) if link == "1" else (row[f"ω_{link}"], row[f"ε_{link}"])
+        unit = length * cmath.exp(1j * math.radians(row[f"φ_{link}"] + more))
+        return np.array([unit, 1j * rate * unit, (1j * change - rate**2) * unit])
+
+    def still(length: float, angle: float) -> np.ndarray:
+        return np.array([cmath.rect(length, math.radians(angle)), 0, 0])
+
+    def on_guide(point: np.ndarray) -> np.ndarray:
+        """How far it is off the guide."""
+        return (point * cmath.exp(-1j * math.radians(given.get("γ_h", 0.0)))).imag - np.array([given["h"], 0, 0])
+
+    for row in data["positions"]:
+        end, found = turned(row, "1", given["l_AO1"]), []
+        if "l_O1O3" not in given:
+            found.append(on_guide(end + turned(row, "2", given["l_AB"])))
+        else:
+            pivot = still(given["l_O1O3"], given["γ_0"])
+            if "l_AB" in given:
+                found.append(end + turned(row, "2", given["l_AB"]) - pivot - turned(row, "3", given["l_BO3"]))
+            else:
+                # the stone keeps to the lever: seen from its pivot nothing lies across it
+                seen, way = end - pivot, turned(row, "3", 1.0).conjugate()
+                products = seen[0] * way[0], seen[1] * way[0] + seen[0] * way[1], seen @ (way[::-1] * [1, 2, 1])
+                found.append(np.array(products).imag)
+            own = turned(row, "3", given["l_CO3"], given["γ_C"]) + turned(row, "4", given["l_CD"])
+            if "h" in given:
+                found.append(on_guide(own))
+            else:
+                found.append(own - still(given["l_O3O5"], given["γ_5"]) - turned(row, "5", given["l_DO5"]))
+        for gap in found:
+            assert (
+                np.abs(gap) < 1e-9 * given["l_AO1"] * np.array([1, 10, 100]) * [1, given["ω_1"], given["ω_1"] ** 2]
+            ).all()
+
+
+@pytest.mark.parametrize("assignment", range(2, 11))
+def test_what_is_said_to_be_free_is_taken(assignment: int) -> None:
+    """Keys by which the note says that the lost figure may be made up for; a machine of two cylinders is named."""
+    data = calculated(f"assignment={assignment}")
+    (free,) = (note.partition("otherwise: ")[2].split(", ") for note in data["notes"] if "figure" in note)
+    given = {s["symbol"]: s["value"] for s in data["steps"]}
+    symbols = {"frame_angle_deg": "γ_0", "arm_angle_deg": "γ_C", "pivot_angle_deg": "γ_5", "guide_height": "h"}
+    for key in free:
+        other = -1 if key.endswith("side") else given.get(symbols.get(key, ""), 0.0) - 1
+        changed = calculated(f"assignment={assignment}", f"{key}={other}")
+        assert changed["positions"][0] != data["positions"][0], key
+    assert any("links 4 and 5 are as 2 and 3" in note for note in data["notes"]) == (assignment in (8, 9))
+
+
+def test_the_second_cylinder_is_the_first_at_another_angle() -> None:
+    """As the note says: the crank's angle less that from one guide to the other."""
+    turned = calculated("assignment=9", "variant=3", "guide_angle_deg=60")["positions"][0]
+    early = calculated("assignment=9", "variant=3", "start_angle_deg=5")["positions"][0]
+    assert (turned["V_B"], turned["a_B"]) == pytest.approx((early["V_B"], early["a_B"]), rel=1e-12)
+
+
 def test_the_choice_by_number_is_that_of_the_guidelines() -> None:
     """Row 1 for a, 10 for b, 7 for v, assignment 1."""
     right, data = CASES["selection"]["recomputed"], calculated("code=10-71")

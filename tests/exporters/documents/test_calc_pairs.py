@@ -179,6 +179,25 @@ def test_a_power_is_taken_by_the_speed_and_in_place_of_a_torque(asked: str, othe
         assert refused.value.key == "gear-pair.power"
 
 
+@pytest.mark.parametrize(("first", "second", "said"), [(10, 12, True), (12, 12, True), (17, 30, False)])
+def test_a_contact_ratio_below_that_of_the_practicum_is_told(first: int, second: int, said: bool) -> None:
+    """Lesson 1, below (1.3): 1.1; the guidelines' shifts of least wear do not keep it, by (3.20) as here reckoned."""
+    shifts = ["shifts=guidelines"] if said else []
+    words = ["module=4", f"first.number_of_teeth={first}", f"second.number_of_teeth={second}", *shifts]
+    data = json.loads(calculate("gear-pair", words, "json", "en"))
+    found = {s["symbol"]: s["value"] for s in data["steps"]}
+    tips = [math.sqrt((found[f"r_a{i}"] / found[f"r_b{i}"]) ** 2 - 1) for i in (1, 2)]
+    base = sum(found[f"r_b{i}"] for i in (1, 2))
+    slope = math.sqrt((found["a_w"] / base) ** 2 - 1)
+    ratio = (first * tips[0] + second * tips[1] - (first + second) * slope) / (2 * math.pi)
+    assert found["ε_min"] == 1.1
+    assert (ratio < 1.1) is said
+    told = [note for note in data["notes"] if "practicum asks" in note]
+    assert told == (
+        [f"contact ratio {ratio:.4f} is below 1.1, which the practicum asks of shifted wheels"] if said else []
+    )
+
+
 def test_broken_conditions_are_named() -> None:
     asked = ["kind=internal_gear_pair", "module=2", "first.number_of_teeth=28", "second.number_of_teeth=32",
              "second.rounded_root.full_round=true"]  # fmt: skip
