@@ -85,7 +85,8 @@ def _tag(element: ElementTree.Element) -> str:
 
 def _shown(element: ElementTree.Element, placed: _Map) -> Iterator[tuple[ElementTree.Element, _Map]]:
     """What is drawn, each with how it is placed."""
-    if _tag(element) in _ASIDE or re.search(r"display\s*:\s*none", element.get("style", "")):
+    hidden = element.get("display") == "none" or re.search(r"display\s*:\s*none", element.get("style", ""))
+    if hidden or _tag(element) in _ASIDE:
         return
     a, b, c = placed
     for p, q, r in _maps(element.get("transform", "")):

@@ -223,7 +223,7 @@ def _units(at: _Line) -> _Slip:
     """A number with its unit; a letter right behind a digit may be meant for one."""
     if (found := _ANGLE.fullmatch(at.line)) and (angle := sexagesimal(found[2])) is not None:
         return "number_in_other_unit", {"key": found[1], "value": f"{angle:.12g}"}
-    if (found := _UNIT.fullmatch(at.line)) is None:
+    if (found := _UNIT.fullmatch(at.line)) is None or float(found[3] or 1) == 0:
         return None
     key, number, by, apart, unit = found.groups("1")
     value = number if by == "1" and "," not in number else f"{float(number.replace(',', '.')) / float(by):.12g}"

@@ -90,8 +90,9 @@ def test_what_moves_a_line_or_its_group_is_heard(told: str, moved: object) -> No
 def test_polygons_are_lines_and_hidden_ones_none() -> None:
     polygon = corners('<defs><path d="M0 0h1v1z"/></defs><polygon points="0,0 4,0 4,3 0,3"/>')
     assert polygon == pytest.approx(np.array(SQUARE))
-    hidden = corners('<g style="display:none"><path d="M0 0h1v1z"/></g><path d="M0 0h4v3h-4z"/><title>a</title>')
-    assert hidden == pytest.approx(np.array(SQUARE))
+    for how in ('style="display:none"', 'display="none"'):
+        hidden = corners(f'<g {how}><path d="M0 0h1v1z"/></g><path d="M0 0h4v3h-4z"/><title>a</title>')
+        assert hidden == pytest.approx(np.array(SQUARE))
 
 
 def test_round_shapes_and_rectangles_are_lines() -> None:

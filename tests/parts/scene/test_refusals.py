@@ -637,6 +637,7 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("a = [1\nlift = 2.0", "is not TOML"),
         ("lift = .", "is not TOML"),
         ("lift = 1/0", "is not TOML"),
+        ("lift = 1/0 mm", "is not TOML"),
         ("kind = 3.5.6", "is not TOML"),
         ("kind = [plate", "is not TOML"),
         ('["parts".g', "is not TOML"),
