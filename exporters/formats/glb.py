@@ -25,15 +25,15 @@ _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 
 class SolidTrack(Record):
-    """How an instance of a solid moves: places (k, 3) mm and turns (m, 4), quaternions x y z w, at even times.
+    """How an instance of a solid moves: shares of the loop with places (k, 3) mm, and with quaternions (m, 4), x y z w.
 
     One row where it stays.
     """
 
     name: str
     solid: str
-    places: Real
-    turns: Real
+    places: tuple[Real, Real]
+    turns: tuple[Real, Real]
 
 
 def write_glb(
@@ -55,20 +55,21 @@ def write_glb(
     nodes: list[dict[str, Any]] = [{"name": title, **_ROOT, "children": list(range(1, len(tracks) + 1))}]
     channels: list[dict[str, Any]] = []
     samplers: list[dict[str, int]] = []
-    times: dict[int, int] = {}
+    times: dict[bytes, int] = {}
     numbers = {name: number for number, name in enumerate(solids)}
     for track in tracks:
         node: dict[str, Any] = {"name": track.name, "mesh": numbers[track.solid]}
-        for path, exact in (("translation", track.places), ("rotation", track.turns)):
+        for path, (shares, exact) in (("translation", track.places), ("rotation", track.turns)):
             # what is left of a nought is not the same on any processor
             values = np.round(exact, _DECIMALS) + 0.0
             if len(values) == 1:
                 node[path] = values[0].tolist()
                 continue
-            if len(values) not in times:
-                times[len(values)] = data.add(np.linspace(0, seconds, len(values)).astype("<f4")[:, None])
+            at = (seconds * shares).astype("<f4")
+            if at.tobytes() not in times:
+                times[at.tobytes()] = data.add(at[:, None])
             channels.append({"sampler": len(samplers), "target": {"node": len(nodes), "path": path}})
-            samplers.append({"input": times[len(values)], "output": data.add(values.astype("<f4"))})
+            samplers.append({"input": times[at.tobytes()], "output": data.add(values.astype("<f4"))})
         nodes.append(node)
     scene = {
         "asset": {"version": "2.0", "generator": "higherpair"},

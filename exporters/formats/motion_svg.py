@@ -14,14 +14,14 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour
 
-# decimals of places, mm, of angles, degrees, and of corners of what changes, mm
-_PLACE, _ANGLE, CORNERS = 6, 9, 4
+# decimals of places, mm, of angles, degrees, of corners of what changes, mm, and of shares of the loop
+_PLACE, _ANGLE, CORNERS, _TIME = 6, 9, 4, 12
 _PINS = "#7f8c99"
 
 
 class Track(Record):
-    """How an instance moves over one loop: places (mm) and angles (rad, counter-clockwise) at even times, the last one
-    that of the first again; a single one where it does not move so.
+    """How an instance moves over one loop: shares of it, and places (mm) and angles (rad, counter-clockwise) there, the
+    last one that of the first again; a single one where it does not move so.
 
     ``forms``: in place of outlines the corners (t, n) of one that changes, at even times too. ``seconds``: of a loop of
     its own. ``pins`` stand on it, and what ``lines`` surround.
@@ -30,8 +30,8 @@ class Track(Record):
     name: str
     outlines: tuple[Approximation, ...]
     colour: str
-    places: Complex
-    angles: Real
+    places: tuple[Real, Complex]
+    angles: tuple[Real, Complex]
     forms: Complex | None = None
     seconds: float | None = None
     pins: tuple[Contour, ...] = ()
@@ -44,14 +44,14 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
     stroke = number((right - left) / 900)
     lines = [page_head(right - left, high - low, left, -high, whole=True), f"<title>{escape(title)}</title>"]
     for track in tracks:
-        places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places.tolist()]
-        angles = [number(-math.degrees(a), _ANGLE) for a in track.angles.tolist()]
+        places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places[1].tolist()]
+        angles = [number(-math.degrees(a), _ANGLE) for a in track.angles[1].real.tolist()]
         data = [" ".join(path_data(outline.geometry, 0j) for outline in track.outlines)]
         if track.forms is not None:
             data = [_corners(corners) for corners in track.forms]
         lines += [
-            f'<g id="{track.name}"{_moved("translate", places, seconds)}',
-            f"<g{_moved('rotate', angles, seconds)}",
+            f'<g id="{track.name}"{_moved("translate", track.places[0], places, seconds)}',
+            f"<g{_moved('rotate', track.angles[0], angles, seconds)}",
             f'<path d="{data[0]}" style="fill:{track.colour};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;'
             f'stroke-width:{stroke}"{_changed(data, track.seconds or seconds)}',
             *(
@@ -65,15 +65,18 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
     save(file, lines)
 
 
-def _moved(kind: str, values: Sequence[str], seconds: float) -> str:
+def _moved(kind: str, shares: Real, values: Sequence[str], seconds: float) -> str:
     """The rest of a group's opening: what moves it once, or over and over."""
     # the first pose, for what does not animate; what moves takes its place
     placed = f' transform="{kind}({values[0]})">'
     if len(values) == 1:
         return placed
+    # values at even shares need none
+    even = float(np.ptp(np.diff(shares))) < 10.0**-_TIME
+    times = "" if even else f' keyTimes="{";".join(number(t, _TIME) for t in shares.tolist())}"'
     return (
         f'{placed}<animateTransform attributeName="transform" type="{kind}" dur="{number(seconds)}s" '
-        f'repeatCount="indefinite" values="{";".join(values)}"/>'
+        f'repeatCount="indefinite"{times} values="{";".join(values)}"/>'
     )
 
 
@@ -93,9 +96,11 @@ def _changed(data: Sequence[str], seconds: float) -> str:
     )
 
 
-def even_values(values: Complex) -> Complex:
+def even_way(shares: Real, values: Complex) -> tuple[Real, Complex]:
     """As few of the values as hold them: one that stays, the ends of a straight and even way, or all of them."""
-    straight = values[0] + (values[-1] - values[0]) * np.linspace(0, 1, len(values))
+    straight = values[0] + (values[-1] - values[0]) * shares
     if np.abs(values - values[0]).max() <= 10.0**-_ANGLE:
-        return values[:1]
-    return values[[0, -1]] if np.abs(values - straight).max() <= 10.0**-_ANGLE else values
+        return shares[:1], values[:1]
+    if np.abs(values - straight).max() <= 10.0**-_ANGLE:
+        return shares[[0, -1]], values[[0, -1]]
+    return shares, values

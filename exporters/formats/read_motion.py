@@ -25,7 +25,7 @@ _KNOWN = {
     "g": {"id", "transform"},
     "path": {"d", "style"},
     "animate": {"attributeName", "dur", "repeatCount", "values"},
-    "animateTransform": {"attributeName", "type", "dur", "repeatCount", "values"},
+    "animateTransform": {"attributeName", "type", "dur", "repeatCount", "keyTimes", "values"},
 }
 # what keeps it within the window of a browser
 _WITHIN = "max-width:100%;max-height:100vh"
@@ -34,14 +34,14 @@ _STYLE = r"fill:#[0-9a-f]{6};fill-opacity:0\.85;fill-rule:evenodd;stroke:#202830
 
 
 class ReadTrack(Record):
-    """An instance: values (k,) of its place (mm, y up) and of its turn (rad) at even times, its outlines.
+    """An instance: shares of its loop with values (k,) of its place (mm, y up), and of its turn (rad); its outlines.
 
     ``forms``: the corners (k, n) of an only one that changes, at even times; ``loops`` has it as it begins.
     ``seconds``: for its loop (0: it does not move). ``pins`` and ``lines`` stand on it.
     """
 
-    places: Complex
-    angles: Complex
+    places: tuple[Real, Complex]
+    angles: tuple[Real, Complex]
     loops: tuple[Loop, ...]
     forms: Complex | None = None
     seconds: float = 0.0
@@ -50,11 +50,15 @@ class ReadTrack(Record):
 
     def pose(self, share: Real) -> tuple[Complex, Real]:
         """Place and turn at shares of the loop: SMIL goes straight from value to value."""
-        return _between(self.places, share), _between(self.angles, share).real
+        return _between(*self.places, share), _between(*self.angles, share).real
 
     def formed(self, share: Real) -> Complex | None:
         """Corners (t, n) of an outline that changes, at shares of the loop."""
-        return None if self.forms is None else np.stack([_between(one, share) for one in self.forms.T], axis=1)
+        return (
+            None
+            if self.forms is None
+            else np.stack([_between(_even(len(one)), one, share) for one in self.forms.T], axis=1)
+        )
 
 
 def read_motion(file: Path) -> dict[str, ReadTrack]:
@@ -92,11 +96,11 @@ def read_motion(file: Path) -> dict[str, ReadTrack]:
         }
         refuse_if(len(inner.findall(f"{_SVG}path")) != 1 + sum(map(bool, on.values())), "more stands on an outline")
         forms = _forms(path, durations) if len(path) else None
-        places, angles = _values(outer, "translate", durations), _values(inner, "rotate", durations)
+        (when, places), (then, angles) = _values(outer, "translate", durations), _values(inner, "rotate", durations)
         refuse_if(len(durations) > 1, "an instance takes unlike times for its loop")
         seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
         turns = np.asarray(-np.radians(angles.real) + 0j)
-        tracks[name] = ReadTrack(places.conj(), turns, loops, forms, seconds, on["#7f8c99"], on["none"])
+        tracks[name] = ReadTrack((when, places.conj()), (then, turns), loops, forms, seconds, on["#7f8c99"], on["none"])
     return tracks
 
 
@@ -104,8 +108,8 @@ def _subpaths(path: Element) -> tuple[Loop, ...]:
     return tuple(svg_path(part, "") for part in re.findall(r"M[^M]*", path.get("d", "")))
 
 
-def _values(group: Element, kind: str, durations: set[str]) -> Complex:
-    """Values of a transform: x + iy of a translation, degrees of a turn, as the file has them."""
+def _values(group: Element, kind: str, durations: set[str]) -> tuple[Real, Complex]:
+    """Shares and values of a transform: x + iy of a translation, degrees of a turn, as the file has them."""
     moves = group.findall(f"{_SVG}animateTransform")
     placed = group.get("transform")
     found = re.fullmatch(rf"{kind}\(([^()]*)\)", placed or "")
@@ -119,7 +123,26 @@ def _values(group: Element, kind: str, durations: set[str]) -> Complex:
     except ValueError as error:
         raise ReadError(f"a value of a motion is no number: {error}") from error
     refuse_if({len(row) for row in numbers} != {2 if kind == "translate" else 1}, "a value of a motion lacks a number")
-    return np.array([complex(row[0], row[1] if len(row) > 1 else 0.0) for row in numbers])
+    values = np.array([complex(row[0], row[1] if len(row) > 1 else 0.0) for row in numbers])
+    return _shares(moves[0] if moves else None, len(values)), values
+
+
+def _even(count: int) -> Real:
+    return np.linspace(0, 1, count)
+
+
+def _shares(move: Element | None, count: int) -> Real:
+    """When an animation has its values: at times that it tells, else evenly."""
+    told = None if move is None else move.get("keyTimes")
+    if told is None:
+        return _even(count)
+    try:
+        times = np.array([float(x) for x in told.split(";")])
+    except ValueError as error:
+        raise ReadError(f"a time of a motion is no number: {error}") from error
+    whole = len(times) == count > 1 and times[0] == 0 and times[-1] == 1
+    refuse_if(not whole or np.diff(times).min() <= 0, "the times of a motion do not go through its loop")
+    return times
 
 
 def _animated(moves: Sequence[Element], looks: dict[str, str], first: str, durations: set[str]) -> list[str]:
@@ -144,8 +167,7 @@ def _forms(path: Element, durations: set[str]) -> Complex:
     return np.array([loop.vertices for loop in loops])
 
 
-def _between(values: Complex, share: Real) -> Complex:
-    at = np.linspace(0, 1, len(values))
+def _between(at: Real, values: Complex, share: Real) -> Complex:
     if len(values) == 1:
         return np.full(len(share), values[0])
     return np.interp(share, at, values.real) + 1j * np.interp(share, at, values.imag)

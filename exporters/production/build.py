@@ -181,7 +181,7 @@ def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -
     seconds = {"write": time.perf_counter() - start}
     max_error, bound = job.declared(made)
     findings = job.findings(made)
-    # a film has no more values than a viewer takes
+    # numbers of films have few bits
     if max_error > job.tolerance:
         findings = (*findings, Finding("coarser_than_asked", max_error, job.tolerance))
     if not verify:

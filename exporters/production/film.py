@@ -29,8 +29,9 @@ _SECONDS, _LEAST, _MOST = 4.0, 4.0, 60.0
 # turns of the fastest in a loop at most, and in the only run of what slides or turns unevenly: no eye follows more
 _MOST_TURNS, _MOST_ONCE = 20, 100
 # values of a way at first, and for a turn of the fastest: of an even way with fewer, each next turn could be taken for
-# one backwards; values at most; of the tolerance what outlines and ways may take
-_VALUES, _A_TURN, MOST_VALUES, SHARE = 60, 4, 16_000, 0.5
+# one backwards; values at most; of the tolerance what outlines and ways may take; of that what ways are brought to,
+# as numbers of a file are rounded; of a loop what is halved no more
+_VALUES, _A_TURN, MOST_VALUES, SHARE, _NEAR, _MOMENT = 60, 4, 16_000, 0.5, 0.9, 1e-7
 # times at which a file is held against exact poses
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
 
@@ -74,16 +75,16 @@ class Film(Record, FileJob):
             return ()
         return (Finding("film_cut_short", 100 * float(self.loop), 100.0),)
 
-    def ways(self, instance: Instance, reach: float) -> tuple[Any, Any, float]:
-        """Places and angles at even shares of the loop, and how far what is straight between them is off, mm."""
+    def ways(self, instance: Instance, reach: float) -> tuple[Real, Any, Any, float]:
+        """Shares of the loop, places and angles there, and how far what is straight between them is off, mm."""
 
-        def at(shares: Real) -> tuple[tuple[Any, Any], float]:
+        def at(shares: Real) -> tuple[tuple[Any, Any], Real]:
             places, angles = self.poses(instance, shares)
             ways = [x[1::2] - (x[:-1:2] + x[2::2]) / 2 for x in (places, angles)]
-            return (places[::2], angles[::2]), float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
+            return (places[::2], angles[::2]), np.abs(ways[0]) + reach * np.abs(ways[1])
 
-        (places, angles), off = self.near_enough(at, MOST_VALUES)
-        return places, angles, off
+        shares, (places, angles), off = self.near_enough(at, MOST_VALUES)
+        return shares, places, angles, off
 
     @property
     def _least(self) -> int:
@@ -91,18 +92,20 @@ class Film(Record, FileJob):
         fastest = max((abs(rate) for i in self.instances for rate in self.course.rates.get(i.id, ())), default=0)
         return max(_VALUES, math.ceil(_A_TURN * fastest * self.loop))
 
-    def near_enough(self, at: Callable[[Real], tuple[T, float]], most: int) -> tuple[T, float]:
-        """What is found at so many even shares of the loop that it is as near as asked, and how far it is off, mm.
+    def near_enough(self, at: Callable[[Real], tuple[T, Real]], most: int) -> tuple[Real, T, float]:
+        """Shares of the loop at which what is found is as near as asked, that, and how far it is off, mm.
 
         ``at``: what is found at every other one of some shares, and how far it is off at those between, where an even
-        way is off the most; ``most``: values.
+        way is off the most; ``most``: values, where they are even. What is too far off is halved.
         """
-        count = self._least
+        shares = np.linspace(0, 1, 2 * self._least + 1)
         while True:
-            found, off = at(np.linspace(0, 1, 2 * count + 1))
-            if off <= SHARE * self.tolerance / 2 or count >= most:
-                return found, 2 * off
-            count *= 2
+            found, off = at(shares)
+            coarse = (off > _NEAR * SHARE * self.tolerance / 2) & (np.diff(shares[::2]) > _MOMENT)
+            if not coarse.any() or len(shares) > 2 * most:
+                return shares[::2], found, 2 * float(off.max())
+            halved = np.repeat(coarse, 2)
+            shares = np.sort(np.concatenate([shares, (shares[:-1][halved] + shares[1:][halved]) / 2]))
 
     def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
         """Exact places and angles of an instance at shares of the loop."""

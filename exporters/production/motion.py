@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from exporters.formats.motion_svg import CORNERS, Track, even_values, write_motion_svg
+from exporters.formats.motion_svg import CORNERS, Track, even_way, write_motion_svg
 from exporters.formats.read_motion import ReadTrack, read_motion
 from exporters.formats.readback import Loop
 from exporters.formats.svg import fill
@@ -80,12 +80,13 @@ class MotionJob(Film, dict=True):
         """Outlines of what changes at even shares of the loop, and how far they are off, mm."""
         ends = self._changing[instance.id]
 
-        def at(shares: Real) -> tuple[tuple[Real, Complex], float]:
+        def at(shares: Real) -> tuple[tuple[Real, Complex], Real]:
             turned, _ = self.frames(instance, shares)
             forms = ends.outlines(turned[::2])
-            return (turned[::2], forms), ends.off_between(turned[1::2], forms)
+            # as one: they stay even
+            return (turned[::2], forms), np.full(len(forms) - 1, ends.off_between(turned[1::2], forms))
 
-        (turned, forms), off = self.near_enough(at, _MOST_FORMS)
+        _, (turned, forms), off = self.near_enough(at, _MOST_FORMS)
         made = thinned(forms, self._chord)
         return made, off + ends.off_outlines(turned, made) + ends.off + 10.0**-CORNERS
 
@@ -142,23 +143,24 @@ class MotionJob(Film, dict=True):
         }
         for index, instance in enumerate(self._shown):
             part = self.parts[instance.part]
-            places, angles, off = self.ways(instance, self._reach(instance))
-            turned = even_values(angles + 0j).real
+            shares, places, angles, off = self.ways(instance, self._reach(instance))
+            ways = even_way(shares, places), even_way(shares, angles + 0j)
             colour = part.colour or fill(index)
             if instance.id in self._changing:
                 forms, beside = self._forms(instance)
                 worst = max(worst, off + beside)
-                made.append(Track(instance.id, (), colour, even_values(places), turned, forms))
+                made.append(Track(instance.id, (), colour, *ways, forms))
                 continue
             worst = max(worst, off if instance.is_upright else off + self._silhouette(instance)[1])
             own = outlines[self._look(instance)]
             if instance.is_over:
                 own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
             on = self._on(instance, [o.geometry for o in own])
-            made.append(Track(instance.id, own, colour, even_values(places), turned, pins=on[0], lines=on[1]))
+            made.append(Track(instance.id, own, colour, *ways, pins=on[0], lines=on[1]))
         for chain in self._chains:
             seconds = self.seconds / abs(chain.pitches)
-            made.append(Track(chain.name, (), _CHAIN, np.zeros(1, complex), np.zeros(1), chain.forms, seconds))
+            stays = np.zeros(1), np.zeros(1, complex)
+            made.append(Track(chain.name, (), _CHAIN, stays, stays, chain.forms, seconds))
         return made, worst + max((x.max_error for row in outlines.values() for x in row), default=0.0)
 
     def _on(self, instance: Instance, contours: Sequence[Contour]) -> tuple[tuple[Contour, ...], tuple[Contour, ...]]:
@@ -207,7 +209,7 @@ class MotionJob(Film, dict=True):
             spans.append([x.min(), y.min(), -x.max(), -y.max()])
         left, low, right, high = np.min(spans, axis=0).tolist()
         write_motion_svg(file, self.title, tracks, (left, low, -right, -high), self.seconds)
-        values = sum(len(t.places) + len(t.angles) for t in tracks)
+        values = sum(len(t.places[0]) + len(t.angles[0]) for t in tracks)
         return {"instances": len(self._shown), "values": values}
 
     def declared(self, made: Made) -> tuple[float, str]:
@@ -237,8 +239,7 @@ class MotionJob(Film, dict=True):
             reach = self._reach(instance)
             track = found[instance.id]
             # every value that the file has, too
-            values = [np.linspace(0, 1, len(way)) for way in (track.places, track.angles)]
-            times = np.unique(np.concatenate([TIMES, *values]))
+            times = np.unique(np.concatenate([TIMES, track.places[0], track.angles[0]]))
             (place, angle), (read, turn) = self.poses(instance, times), track.pose(times)
             ends = place + reach * np.exp(1j * angle), read + reach * np.exp(1j * turn)
             worst = max(worst, float(np.abs(place - read).max()), float(np.abs(ends[0] - ends[1]).max()))
@@ -253,7 +254,7 @@ class MotionJob(Film, dict=True):
             # a picture, held at the stands that it has
             forms = np.zeros(0, complex) if track.forms is None else track.forms
             well = forms.shape == chain.forms.shape and float(np.abs(forms - chain.forms).max()) <= 10.0**-CORNERS
-            well = well and float(np.abs(np.concatenate([track.places, track.angles])).max()) == 0.0
+            well = well and float(np.abs(np.concatenate([track.places[1], track.angles[1]])).max()) == 0.0
             failures += unless(well, "{part}: its outline is that of another", part=chain.name)
         failures += self.off_place(worst, outline, declared)
         return Verdict({"max_deviation": outline, "pose_deviation": worst, "loop_seconds": seconds}, tuple(failures))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from exporters.formats.glb import SolidTrack, write_glb
-from exporters.formats.motion_svg import even_values
+from exporters.formats.motion_svg import even_way
 from exporters.formats.read_glb import read_glb
 from exporters.formats.svg import fill
 from exporters.production.film import MOST_VALUES, SHARE, TIMES, Film
@@ -55,28 +55,27 @@ class SolidFilm(Film):
                 made.append(track)
                 worst = max(worst, off)
                 continue
-            places, angles, off = self.ways(instance, reach)
-            even = even_values(angles + 0j).real
-            steps = len(angles) - 1
-            if len(even) == 2:
+            shares, places, angles, off = self.ways(instance, reach)
+            when, turned = even_way(shares, angles + 0j)
+            if len(turned) == 2:
                 # values of an even turn stand near enough for the shorter way round to be the right one
-                steps = max(1, math.ceil(abs(even[1] - even[0]) / _STEP))
-            if len(even) > 1:
-                even = np.interp(np.linspace(0, 1, steps + 1), np.linspace(0, 1, len(angles)), angles)
-            way = even_values(places)
+                when = np.linspace(0, 1, 1 + max(1, math.ceil(abs(turned[1] - turned[0]) / _STEP)))
+                turned = turned[0] + (turned[1] - turned[0]) * when
+            at, way = even_way(shares, places)
             heights = np.full(len(way), instance.at[2])
-            turns = np.array([_quaternion(instance.axis, angle) for angle in even.tolist()])
-            made.append(SolidTrack(instance.id, instance.part, np.column_stack([way.real, way.imag, heights]), turns))
+            turns = np.array([_quaternion(instance.axis, angle) for angle in turned.real.tolist()])
+            laid = np.column_stack([way.real, way.imag, heights])
+            made.append(SolidTrack(instance.id, instance.part, (at, laid), (when, turns)))
             # numbers, and the times of what moves, have 24 bits
             far = float(np.abs(places).max()) + abs(instance.at[2])
-            run = float(np.abs(np.diff(places)).sum() + reach * np.abs(np.diff(angles)).sum())
-            worst = max(worst, off + 2 * _FLOAT32 * (far + run) + _TURNED * reach)
+            rate = ((np.abs(np.diff(places)) + reach * np.abs(np.diff(angles))) / np.diff(shares)).max()
+            worst = max(worst, off + 2 * _FLOAT32 * (far + float(rate)) + _TURNED * reach)
         return made, worst
 
     def _in_space(self, instance: Instance, reach: float) -> tuple[SolidTrack, float]:
         """The track of what lies and goes round, and how far it is off its way between its values, mm."""
 
-        def at(shares: Real) -> tuple[tuple[Real, Real], float]:
+        def at(shares: Real) -> tuple[tuple[Real, Real], Real]:
             turned, places = self.frames(instance, shares)
             turns = _quaternions(turned)
             # between two values a viewer takes the shorter way round, evenly: half way it is their sum
@@ -84,13 +83,13 @@ class SolidFilm(Film):
             middle /= np.linalg.norm(middle, axis=1)[:, None]
             angles = 2 * np.arccos(np.clip(np.abs(np.einsum("nj,nj->n", middle, turns[1::2])), 0.0, 1.0))
             aside = np.linalg.norm(places[1::2] - (places[:-1:2] + places[2::2]) / 2, axis=1)
-            return (places, turns), float((aside + reach * angles).max())
+            return (places[::2], turns[::2]), aside + reach * angles
 
-        (places, turns), off = self.near_enough(at, MOST_VALUES)
-        run = float(np.abs(np.diff(places, axis=0)).sum() + reach * _angles(turns).sum())
+        shares, (places, turns), off = self.near_enough(at, MOST_VALUES)
+        rate = ((np.abs(np.diff(places, axis=0)).sum(axis=1) + reach * _angles(turns)) / np.diff(shares)).max()
         far = float(np.abs(places).max())
-        track = SolidTrack(instance.id, instance.part, places[::2], turns[::2])
-        return track, off + 2 * _FLOAT32 * (far + run) + _TURNED * reach
+        track = SolidTrack(instance.id, instance.part, (shares, places), (shares, turns))
+        return track, off + 2 * _FLOAT32 * (far + float(rate)) + _TURNED * reach
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""

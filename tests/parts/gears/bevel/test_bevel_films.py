@@ -106,7 +106,9 @@ def svg_pose(text: str, name: str, share: float) -> tuple[complex, float]:
         assert still is not None
         rows = [[float(x) for x in row.split(",")] for row in (moved[1].split(";") if moved else [still[1]] * 2)]
         values = np.array(rows)
-        return np.array([np.interp(share, np.linspace(0, 1, len(values)), column) for column in values.T])
+        told = re.search(rf'type="{kind}"[^>]*keyTimes="([^"]*)"', own)
+        times = [float(x) for x in told[1].split(";")] if told else np.linspace(0, 1, len(values))
+        return np.array([np.interp(share, times, column) for column in values.T])
 
     x, y = at("translate")
     return complex(x, -y), -float(at("rotate")[0])
