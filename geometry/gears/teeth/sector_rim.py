@@ -78,7 +78,9 @@ def core_edges(gear: SpurGear | RingGear) -> tuple[Edge, ...]:
     rim = (cmath.phase(start_point(before[0])) - start) % (2 * math.pi)
     radius, first = sector.core_radius(run.root), cmath.phase(end_point(before[-1]))
     rest = 2 * math.remainder(middle - first, 2 * math.pi)
-    if rest <= 0:
+    # of the rim too what its corners leave beyond the middle of the run
+    left = math.remainder(cmath.phase(start_point(before[0])) - (run.low + run.high) / 2, 2 * math.pi)
+    if min(left, rest) <= 0:
         raise GeometryError("edge_consumed")
     count = math.ceil(rest / _MOST_SWEEP)
     arcs = [Arc(0j, radius, first + rest * k / count, rest / count) for k in range(count)]

@@ -170,12 +170,25 @@ def test_area_of_a_blank_is_that_of_disc_and_teeth() -> None:
         (Sector(23, 0, 1, 30.0), "sector.teeth", "sector_of_all_teeth"),
         (Sector(3, 0, 5), "sector.runs", "runs_do_not_divide"),
         (Sector(5, 0, 1, 44.0), "sector.blank_diameter", "blank_above_roots"),
+        (Sector(5, 0, 1, 43.0), "sector.blank_diameter", "blank_above_roots"),
         (Sector(5, 0, 1, 9.0), "sector.blank_diameter", "rest_within_holes"),
         (Sector(5, 0, 1, None, 9.0), "sector.hub_diameter", "rest_within_holes"),
+        (Sector(5, 0, 1, None, 10.0), "sector.hub_diameter", "rest_within_holes"),
         (Sector(5, 0, 1, None, 50.0), "sector.hub_diameter", "reaches_root_circle"),
+        (Sector(5, 0, 1, None, 43.0), "sector.hub_diameter", "reaches_root_circle"),
         (Sector(18, 0, 1, None, 14.0), "sector.teeth", "sides_of_sector_meet"),
         (Sector(5, 0, 1, None, 14.0, 9.0), "sector.corner_radius", "corner_has_no_room"),
         (Sector(5, 0, 1, 30.0, None, 5.0), "sector.corner_radius", "corner_has_no_room"),
+        # deeper than the step to the blank, wider than the teeth leave of the rim, than the blank is, than all is
+        (Sector(5, 0, 1, 40.0, None, 1.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(5, 0, 1, 14.0, None, 4.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(22, 0, 1, 16.0, None, 2.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(5, 0, 1, 30.0, None, 15.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(5, 0, 1, None, 14.0, 22.0), "sector.corner_radius", "corner_has_no_room"),
+        # so wide that both corners of the rim cross: it was taken for one that goes nearly all round
+        (Sector(1, 0, 1, 14.0, None, 5.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(1, 0, 1, None, 14.0, 6.0), "sector.corner_radius", "corner_has_no_room"),
+        (Sector(5, 0, 1, None, 14.0, 21.0), "sector.corner_radius", "corner_has_no_room"),
         (Sector(5, 0, 1, None, None, 0.3), "sector.corner_radius", "blank_without_corners"),
     ],
 )
@@ -186,7 +199,9 @@ def test_what_has_no_room_is_refused_with_what_has(sector: Sector, name: str, co
     found = refused.value.nearest
     assert found is not None
     assert found.value is not None
-    checked_gear(gear(24, replace(sector, **{name.partition(".")[2]: found.value}), bore_diameter=10.0))
+    cured = gear(24, replace(sector, **{name.partition(".")[2]: found.value}), bore_diameter=10.0)
+    checked_gear(cured)
+    assert polygon(gear_region(cured).region.outer).is_valid
 
 
 def test_holes_stand_within_a_cut_sector() -> None:
@@ -213,3 +228,59 @@ def test_an_offset_of_just_the_rounding_leaves_sharp_corners() -> None:
 def test_an_offset_that_leaves_no_wall_is_refused() -> None:
     with pytest.raises(OffsetError):
         gear_region(gear(24, Sector(5, 0, 1, None, 14.0), bore_diameter=12.0), -0.6)
+
+
+def test_a_hole_that_grows_into_the_side_of_a_cut_sector_is_refused() -> None:
+    """A hole in the spoke, whose walls are thinner than those of the teeth."""
+    made = replace(gear(24, Sector(1, 0, 1, None, 14.0)), hub=HubHoles(None, (RoundHoles(1, 8.0, 28.0, 0.0),)))
+    with pytest.raises(OffsetError) as refused:
+        gear_region(made, -1.2)
+    near = refused.value.nearest
+    assert near is not None
+    section = gear_region(checked_gear(made), float(near.value)).region
+    assert polygon(section.outer).contains(polygon(section.holes[0]))
+
+
+@pytest.mark.parametrize("sector", [Sector(5, 0), Sector(3, 0, 1, None, 14.0)])
+@pytest.mark.parametrize("offset", [1.0, 3.0])
+def test_spaces_within_a_run_close_before_those_beside_it(sector: Sector, offset: float) -> None:
+    """Moved so far, flanks of neighbours meet above the roots; those of outer teeth go on down beside nothing."""
+    made = gear(24, sector, profile_shift_coefficient=0.5)
+    found = polygon(gear_region(made, offset).region.outer)
+    same(found, expected(made).buffer(offset, quad_segs=200), made.tip_radius)
+
+
+@pytest.mark.parametrize("sector", [Sector(5, 0), Sector(5, 0, 1, 30.0), Sector(3, 0, 1, None, 14.0)])
+def test_an_offset_that_closes_the_space_beside_a_run_is_refused(sector: Sector) -> None:
+    made = gear(24, sector, profile_shift_coefficient=0.5)
+    with pytest.raises(OffsetError) as refused:
+        gear_region(made, 4.0)
+    assert refused.value.code == "closes_tooth_spaces"
+    near = refused.value.nearest
+    assert near is not None
+    assert polygon(gear_region(made, float(near.value)).region.outer).is_valid
+    assert 3.0 < float(near.value) < 4.0
+
+
+@pytest.mark.parametrize("corner", [5.0, 12.0, 55.0])
+def test_corners_of_a_ring_that_have_no_room_are_refused(corner: float) -> None:
+    """Wider than the rim beside the teeth, than the whole rim, than the blank is."""
+
+    def ring(radius: float) -> RingGear:
+        return RingGear(2.0, 60, math.radians(20), 260.0, RoundedRoot(1.25, 0.3), given_tip_diameter=117.0,
+                        sector=Sector(1, 0, 1, 200.0, None, radius))  # fmt: skip
+
+    with pytest.raises(ParameterError) as refused:
+        checked_ring(ring(corner))
+    assert (refused.value.name, refused.value.code) == ("sector.corner_radius", "corner_has_no_room")
+    near = refused.value.nearest
+    assert near is not None
+    assert polygon(ring_region(checked_ring(ring(float(near.value)))).region.holes[0]).is_valid
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_by_default_a_run_lies_about_the_x_axis(sign: int) -> None:
+    """Or half a pitch beyond it; a gear has a tooth there, a ring a space."""
+    for teeth in range(1, 12):
+        middle = centred(teeth, sign) + (teeth - 1) / 2 + (0.0 if sign > 0 else 0.5)
+        assert middle == (0.5 if (teeth % 2 == 0) is (sign > 0) else 0.0)

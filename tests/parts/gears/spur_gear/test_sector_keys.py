@@ -23,7 +23,7 @@ def gears(draw: st.DrawFn) -> dict[str, Any]:
     table: dict[str, Any] = {"teeth": draw(st.integers(1, z))}
     for key, values in (
         ("first_tooth", st.integers(-z, z)), ("runs", st.integers(1, 6)), ("blank_diameter", size),
-        ("corner_radius", st.floats(0.01, 3.0)),
+        ("corner_radius", st.floats(0.01, 3.0) | st.floats(3.0, 60.0)),
         *(() if ring else (("rest", st.sampled_from(["blank", "cut"])), ("hub_diameter", size))),
     ):  # fmt: skip
         if draw(st.integers(0, 2)) == 0:
