@@ -108,7 +108,7 @@ def frames(levers: Levers, at: Moved) -> dict[str, Frame]:
     found["2"] = Frame(end, at.links["3" if isinstance(first, Stone) else "2"])
     found["3"] = held(first, "B", "3")
     if second is not None:
-        found["4"] = Frame(at.points["C"], at.links["4"])
+        found["4"] = Frame(at.points.get("C", end), at.links["4"])
         found["5"] = held(second, "D", "5")
     return found
 

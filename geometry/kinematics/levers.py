@@ -93,8 +93,8 @@ class Levers(Record):
     """A crank OA of length ``crank`` that turns at ``speed`` (rad/s, counter-clockwise) and its dyads.
 
     ``first`` joins A: a stone in a lever, a rod with a rocker, or a rod with a slider. ``lever``: O3B on the lever;
-    ``arm``: O3C seen from the direction of the lever (O3A or O3B), complex, mm; ``second`` joins C; ``change``: the
-    crank's angular acceleration, rad/s^2, 0 where it turns evenly.
+    ``arm``: O3C seen from the direction of the lever (O3A or O3B), complex, mm; ``second`` joins C, or beside a first
+    slider A too: both on one crank; ``change``: the crank's angular acceleration, rad/s^2, 0 where it turns evenly.
     """
 
     crank: float
@@ -136,7 +136,10 @@ class Levers(Record):
         end: Series = [crank, w * crank, (w * w + 1j * self.change) * crank / 2]
         if isinstance(self.first, Slider):
             slider, rod = _slid(end, self.first)
-            return Moved({"A": end, "B": slider}, {"2": rod})
+            points, links = {"A": end, "B": slider}, {"2": rod}
+            if isinstance(self.second, Slider):
+                points["D"], links["4"] = _slid(end, self.second)
+            return Moved(points, links)
         reach: Series | None = None
         if isinstance(self.first, Stone):
             reach, lever = _unit(_from(end, self.first.pivot))
@@ -276,7 +279,8 @@ def _limits(levers: Levers) -> list[float]:
     """Angles of the crank at which a group may be at a limit, rad."""
     first, second, a = levers.first, levers.second, levers.crank
     if isinstance(first, Slider):
-        return [x for k in (-1, 1) for x in _level(a, _height(first) + k * first.rod, first.angle)]
+        on_crank = [group for group in (first, second) if isinstance(group, Slider)]
+        return [x for s in on_crank for k in (-1, 1) for x in _level(a, _height(s) + k * s.rod, s.angle)]
     far, home = abs(first.pivot), cmath.phase(first.pivot)
     found = [home]
     if isinstance(first, Rods):
@@ -308,7 +312,8 @@ def _spare(levers: Levers, angles: Real) -> Real:
     spare = _room(levers.first, at.place("A"))
     if levers.second is None:
         return spare
-    return np.where(spare > 0, np.fmin(spare, _room(levers.second, at.place("C"))), spare)
+    joint = "A" if isinstance(levers.first, Slider) else "C"
+    return np.where(spare > 0, np.fmin(spare, _room(levers.second, at.place(joint))), spare)
 
 
 def _room(group: Stone | Rods | Slider, joint: Complex) -> Real:
@@ -350,7 +355,9 @@ def closed(levers: Levers) -> None:
     """
     first, second, a = levers.first, levers.second, levers.crank
     if isinstance(first, Slider):
-        _refuse_short(first, (-a - _height(first), a - _height(first)), "first.rod")
+        for group, name in ((first, "first.rod"), (second, "second.rod")):
+            if isinstance(group, Slider):
+                _refuse_short(group, (-a - _height(group), a - _height(group)), name)
         return
     far = abs(first.pivot)
     if isinstance(first, Stone):

@@ -12,6 +12,7 @@ from parts.keys.sheet import PaperName
 from parts.keys.title import TitleBlockKey
 from parts.mates.pages.lever_picture import LARGE_ROOM, ROOM
 
+_TWIN = "direction of the guide of a second, equal slider on the same crank, as of a compressor: links 4 and 5"
 _MASS = "AS2 / AB: centre of mass, or any point, of the rod AB: its velocity, acceleration, and its path in the picture"
 
 _MASSES = "substitute masses of the links at A, B, C, D: point_masses.D=12; A is of the crank, B and C of link 3"
@@ -56,6 +57,7 @@ class LeverKeys(MechanismTable, kw_only=True, forbid_unknown_fields=True):
     speed: Annotated[float, size("rad/s", "angular velocity of the crank", above=0, most=1e6)] = 1.0
     speed_rpm: Annotated[float, size("rpm", "the same in place of speed", above=0, most=1e7)] | None = None
     acceleration: Annotated[float, size("rad/s2", "angular acceleration of the crank", least=-1e9, most=1e9)] = 0.0
+    second_guide_angle_deg: Annotated[float, degrees(_TWIN, least=-360, most=360)] | None = None
     mass_point: Annotated[float, Meta(ge=0, le=1, description=_MASS)] | None = None
     point_masses: Annotated[dict[str, _Mass], Meta(description=_MASSES)] | None = None
     masses: Annotated[dict[str, _Mass], Meta(description=_LINK_MASSES)] | None = None

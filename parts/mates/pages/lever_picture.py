@@ -154,7 +154,9 @@ class LeverPicture(Record, eq=False):
     def rods(self, known: Mapping[str, complex]) -> list[tuple[str, str]]:
         """Which of the points that are known are joined by links."""
         rods = (rod for rod in _RODS if {*rod} <= {*known})
-        return [rod for rod in rods if not ("A" in self.blocks and rod == ("A", "B"))]
+        found = [rod for rod in rods if not ("A" in self.blocks and rod == ("A", "B"))]
+        # without a lever a second rod hangs on the crank
+        return [*found, ("A", "D")] if "D" in known and "C" not in known else found
 
     def at(self, number: int) -> dict[str, complex]:
         """Where all points are in a position, mm."""

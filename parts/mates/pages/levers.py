@@ -13,6 +13,7 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearer
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_roots, crests, tops
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov
@@ -102,7 +103,7 @@ def _is_example(table: Mapping[str, Any]) -> bool:
 def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
     """Refuse keys that a user gave and that no link of the mechanism takes."""
     taken = {
-        "mass_point": keys.first != "stone",
+        "mass_point": keys.first != "stone", "second_guide_angle_deg": keys.first == "slider",
         "resisted": keys.resistance is not None or keys.resisting_moment is not None,
         "gravity": weighs(keys), "gravity_angle_deg": weighs(keys) and keys.gravity > 0, "force_scale": asked(keys),
         "drive_radius": asked(keys), "centres": asked(keys), "centre_offsets": asked(keys),
@@ -116,13 +117,22 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
         raise ParameterError(
             "second_position", keys.second_position, "no_such_position", works, last=keys.positions - 1
         )
+    if keys.second_guide_angle_deg is not None and asked(keys):
+        loads = next(name for name in ("masses", "point_masses", "inertias", "resistance", "resisting_moment")
+                     if getattr(keys, name))  # fmt: skip
+        raise ParameterError(loads, table[loads], "other_is_given", REMOVED, other="second_guide_angle_deg")
     for name in [*MechanismTable.__struct_fields__, *taken]:
         if name in table and (name in unused(keys) or not taken.get(name, True)):
             raise ParameterError(name, table[name], "of_no_link", REMOVED)
 
 
 def _levers(keys: LeverKeys) -> Levers:
-    return levers_of(keys, keys.speed, keys.acceleration)
+    levers = levers_of(keys, keys.speed, keys.acceleration)
+    if keys.second_guide_angle_deg is None or not isinstance(levers.first, Slider):
+        return levers
+    turn = math.radians(keys.second_guide_angle_deg - keys.guide_angle_deg)
+    on, angle = levers.first.on * cmath.exp(1j * turn), levers.first.angle + turn
+    return replace(levers, second=replace(levers.first, on=on, angle=angle))
 
 
 def _metres(vector: complex | np.ndarray) -> float:
@@ -248,6 +258,7 @@ class _Page:
             lengths += [("second_frame_angle_deg", keys.pivot_angle_deg)]
         if "slider" in (keys.first, keys.second):
             lengths += [("guide_offset", keys.guide_height), ("slider_guide_angle_deg", keys.guide_angle_deg or None)]
+            lengths += [("second_guide_angle_deg", keys.second_guide_angle_deg)]
         for name, value in lengths:
             if value is not None:
                 page.add(name, value, given=True)
@@ -289,7 +300,8 @@ class _Page:
             self.page.add("stone_distance", float(at.reach[0]), formula)
         for link, name in _DIRECTIONS.items():
             if link in at.links:
-                self.page.add(name, math.degrees(at.angle(link)))
+                called = N_("direction of the rod AD") if link == "4" and self._is_twin else ""
+                self.page.add(name, math.degrees(at.angle(link)), called=called)
         if self.between is not None:
             for end, name in zip(self.between, ("least_crank_angle_deg", "greatest_crank_angle_deg"), strict=True):
                 self.page.add(name, math.degrees(end), self._limit(end))
@@ -362,15 +374,20 @@ class _Page:
             self._relative("4", "D", "C", "l_4")
             if "5" in at.links:
                 self._link("5", "1000 * {V_D} / {l_5}")
+        elif self._is_twin:
+            self._point("D")
+            self._relative("4", "D", "A", "l_2")
         self._of_centres("point_velocity", "V", 1)
 
     def _of_centres(self, name: str, symbol: str, order: int) -> None:
         """A rate of the centre of mass of the rod AB, or of any other point of it, as the user tells it."""
         if self.keys.mass_point is None:
             return
-        series = frames(self.levers, self.at)["2"].point(complex(self.keys.mass_point * self._rod))
-        of = message("point {name}", name="S2")
-        self.page.add(name, _metres(order * series[order]), symbol=f"{symbol}_S2", of=of)
+        moving = frames(self.levers, self.at)
+        for link in ("2", "4") if self._is_twin else ("2",):
+            series = moving[link].point(complex(self.keys.mass_point * self._rod))
+            of = message("point {name}", name=f"S{link}")
+            self.page.add(name, _metres(order * series[order]), symbol=f"{symbol}_S{link}", of=of)
 
     @property
     def _rod(self) -> float:
@@ -419,6 +436,9 @@ class _Page:
             if isinstance(self.levers.second, Rods):
                 self._about("5", N_("D about O5"), self.levers.second.rocker, "l_5")
             self._accelerated("D")
+        elif self._is_twin:
+            self._about("4", N_("D about A"), self._rod, "l_2")
+            self._accelerated("D")
         if self.forces is None:
             # forces have it beside the mass
             self._of_centres("point_acceleration", "a", 2)
@@ -438,7 +458,12 @@ class _Page:
 
     @property
     def _output(self) -> str:
-        return "D" if "D" in self.at.points else "B"
+        return "D" if "C" in self.at.points else "B"
+
+    @property
+    def _is_twin(self) -> bool:
+        """Whether a second slider hangs on the crank."""
+        return self.keys.first == "slider" and self.levers.second is not None
 
     def _over_a_turn(self) -> None:
         """The table of equidistant positions, and what is greatest over the turn."""
@@ -472,6 +497,12 @@ class _Page:
         heads += [(f"V_{name}", "m/s"), (f"a_{name}", "m/s2")]
         size = self._along if self._slides else np.abs
         columns += [size(speeds / 1000), size(changes / 1000)]
+        if isinstance(second := self.levers.second, Slider) and self._is_twin:
+            back = cmath.exp(-1j * second.angle)
+            # seen along its guide it goes as the first one does
+            heads += [("S_D", "mm"), ("V_D", "m/s"), ("a_D", "m/s2")]
+            columns += [np.real(at.place("D") * back) - travel.min(), np.real(at.velocity("D") * back) / 1000,
+                        np.real(at.acceleration("D") * back) / 1000]  # fmt: skip
         page.table("positions", title, heads, zip(*columns, strict=True))
 
     def _most(self, of: Callable[[Moved], Real]) -> float:
@@ -675,6 +706,8 @@ class _Page:
         blocks = {"A": complex(self.at.links["3"][0])} if self.at.reach is not None else {}
         if self._slides:
             blocks[self._output] = self.way
+        if isinstance(second := self.levers.second, Slider) and self._is_twin:
+            blocks["D"] = cmath.exp(1j * second.angle)
         points = {name: complex(place) for name, place in shown[0].items()}
         angles = self.keys.start_angle_deg + 360 * np.arange(self.fine) / self.fine
         self.page.picture = LeverPicture(
@@ -690,6 +723,8 @@ class _Page:
         )
         if self.keys.mass_point is not None:
             told["2"] = complex(self.keys.mass_point * self._rod)
+            if self._is_twin:
+                told["4"] = told["2"]
         moving = frames(self.levers, at)
         return {
             f"S{link}": moving[link].point(told[link])[0] for link in ("2", "4") if link in at.links and link in told
@@ -748,7 +783,8 @@ class _Page:
         if "2" in at.links:
             found.append(Vector("ab", ends["A"], ends["B"]))
         if "D" in ends:
-            found.append(Vector("cd", ends["C"], ends["D"]))
+            joint = "A" if self._is_twin else "C"
+            found.append(Vector(f"{joint.lower()}d", ends[joint], ends["D"]))
         return found
 
     def _acceleration_vectors(self, at: Moved) -> list[Vector]:
@@ -766,7 +802,7 @@ class _Page:
             found += [Vector("a2k", ends["A"], coriolis), Vector("ka3", coriolis, own)]
             found += [Vector("πn3", 0j, normal), Vector("n3a3", normal, own)]
         found += [Vector(f"π{name.lower()}", 0j, ends[name]) for name in ends if name != "A"]
-        for link, one, two in (("2", "A", "B"), ("4", "C", "D")):
+        for link, one, two in (("2", "A", "B"), ("4", "A" if self._is_twin else "C", "D")):
             if link in at.links:
                 rate = float(at.turning(link)[0])
                 rod = complex(at.place(two) - at.place(one)) / 1000
@@ -798,9 +834,8 @@ class _Page:
                 )
             if levers.second is None:
                 page.note(
-                    "the machine has a second cylinder, whose links 4 and 5 are as 2 and 3 on the same crank: n = 5, "
-                    "p_5 = 7, W = 1; its numbers are those of this page for start_angle_deg less the angle from the "
-                    "first guide to the second; forces and flywheel are here those of one cylinder"
+                    "the machine has a second cylinder, links 4 and 5 as 2 and 3 on the same crank: n = 5, p_5 = 7, "
+                    "W = 1; second_guide_angle_deg adds it; forces and flywheel are those of one cylinder"
                 )
         if isinstance(levers.first, Stone):
             assert self.turn.reach is not None

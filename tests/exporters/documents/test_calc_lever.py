@@ -338,12 +338,15 @@ def test_every_assignment_moves_all_round(assignment: int) -> None:
             assert 0.9 * value(data, "H") < travel <= value(data, "H") * (1 + 1e-9)
 
 
-AGAIN = [(f"assignment={number}", f"variant={row}") for number in range(1, 11) for row in (1, 4, 9)]
+AGAIN = [
+    *((f"assignment={number}", f"variant={row}") for number in range(1, 11) for row in (1, 4, 9)),
+    ("assignment=4", "guide_angle_deg=20"), ("assignment=8", "guide_angle_deg=70"),
+    ("assignment=8", "second_guide_angle_deg=90"),
+    ("assignment=9", "guide_angle_deg=20", "guide_height=12", "second_guide_angle_deg=-60"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "keys", [*AGAIN, ("assignment=4", "guide_angle_deg=20"), ("assignment=8", "guide_angle_deg=70")], ids=str
-)
+@pytest.mark.parametrize("keys", AGAIN, ids=str)
 def test_a_page_is_reckoned_again_from_what_it_gives(keys: tuple[str, ...]) -> None:
     """Both loops close in every position, with their first and second derivatives: by the section "Given" alone."""
     data = calculated(*keys)
@@ -358,14 +361,16 @@ def test_a_page_is_reckoned_again_from_what_it_gives(keys: tuple[str, ...]) -> N
     def still(length: float, angle: float) -> np.ndarray:
         return np.array([cmath.rect(length, math.radians(angle)), 0, 0])
 
-    def on_guide(point: np.ndarray) -> np.ndarray:
-        """How far it is off the guide."""
-        return (point * cmath.exp(-1j * math.radians(given.get("γ_h", 0.0)))).imag - np.array([given["h"], 0, 0])
+    def on_guide(point: np.ndarray, guide: str = "γ_h") -> np.ndarray:
+        """How far it is off a guide."""
+        return (point * cmath.exp(-1j * math.radians(given.get(guide, 0.0)))).imag - np.array([given["h"], 0, 0])
 
     for row in data["positions"]:
         end, found = turned(row, "1", given["l_AO1"]), []
         if "l_O1O3" not in given:
             found.append(on_guide(end + turned(row, "2", given["l_AB"])))
+            if "γ_h2" in given:
+                found.append(on_guide(end + turned(row, "4", given["l_AB"]), "γ_h2"))
         else:
             pivot = still(given["l_O1O3"], given["γ_0"])
             if "l_AB" in given:
@@ -397,14 +402,48 @@ def test_what_is_said_to_be_free_is_taken(assignment: int) -> None:
         other = -1 if key.endswith("side") else given.get(symbols.get(key, ""), 0.0) - 1
         changed = calculated(f"assignment={assignment}", f"{key}={other}")
         assert changed["positions"][0] != data["positions"][0], key
-    assert any("links 4 and 5 are as 2 and 3" in note for note in data["notes"]) == (assignment in (8, 9))
+    assert any("second_guide_angle_deg adds it" in note for note in data["notes"]) == (assignment in (8, 9))
 
 
 def test_the_second_cylinder_is_the_first_at_another_angle() -> None:
-    """As the note says: the crank's angle less that from one guide to the other."""
-    turned = calculated("assignment=9", "variant=3", "guide_angle_deg=60")["positions"][0]
-    early = calculated("assignment=9", "variant=3", "start_angle_deg=5")["positions"][0]
-    assert (turned["V_B"], turned["a_B"]) == pytest.approx((early["V_B"], early["a_B"]), rel=1e-12)
+    """Of one crank: what it does is what the first does where the crank is as far from its own guide."""
+    own = "assignment=9", "variant=3", "guide_height=7"
+    both = calculated(*own, "second_guide_angle_deg=60")
+    alone, early = calculated(*own), calculated(*own, "start_angle_deg=5")
+    assert [value(both, s) for s in ("n", "p_5", "W")] == [5, 7, 1]
+    for row, first, second in zip(both["positions"], alone["positions"], early["positions"], strict=True):
+        assert {key: row[key] for key in first} == first
+        assert row["φ_4"] == pytest.approx(second["φ_2"] + 60)
+        names = {"ω_4": "ω_2", "ε_4": "ε_2", "S_D": "S_B", "V_D": "V_B", "a_D": "a_B"}
+        assert [row[name] for name in names] == pytest.approx([second[of] for of in names.values()], abs=1e-6)
+    for name in ("V", "a"):
+        assert value(both, f"{name}_D") == pytest.approx(value(early, f"{name}_B"), rel=1e-12)
+        assert value(both, f"{name}_S4") == pytest.approx(value(early, f"{name}_S2"), rel=1e-12)
+    # the plans close: a and d, and what both were before
+    for plan in ("velocity_plan", "acceleration_plan"):
+        ends = {row["vector"]: cmath.rect(row["value"], math.radians(row["direction"])) for row in both[plan]}
+        pole = "p" if plan == "velocity_plan" else "π"
+        chain = ["ad"] if pole == "p" else ["an4", "n4d"]
+        assert abs(ends[f"{pole}a"] + sum(ends[name] for name in chain) - ends[f"{pole}d"]) < 1e-9 * abs(
+            ends[f"{pole}a"]
+        )
+
+
+def test_the_second_cylinder_is_drawn(tmp_path: Path) -> None:
+    """Its slider and its rod from A stand in the scheme, two blocks in all; loads are those of one cylinder."""
+    file = tmp_path / "scheme.svg"
+    calculate("lever", ("assignment=8", "second_guide_angle_deg=90", f"picture={file}"), "text", "en")
+    scheme = ET.parse(file).getroot().find("{http://www.w3.org/2000/svg}g")
+    assert scheme is not None
+    tags = [element.tag.rpartition("}")[2] for element in scheme.iter()]
+    assert tags.count("rect") == 2
+    names = [element.text for element in scheme.iter() if element.tag.endswith("text")]
+    assert {"A", "B", "D", "O1", "S2", "S4"} <= {*names}
+    for load in ("masses.2=3", "resistance=500", "point_masses.B=2"):
+        with pytest.raises(SceneError, match="second_guide_angle_deg is given already"):
+            calculate("lever", ("assignment=8", "second_guide_angle_deg=90", load), "text", "en")
+    with pytest.raises(SceneError, match="belongs to no link"):
+        calculate("lever", ("assignment=4", "second_guide_angle_deg=90"), "text", "en")
 
 
 def test_the_choice_by_number_is_that_of_the_guidelines() -> None:
