@@ -86,7 +86,13 @@ _BASE_CIRCLE = (
 )
 BaseCircle = Annotated[float, part_mm(_BASE_CIRCLE, above=0), start(30.0)]
 LeastTransmission = Annotated[
-    float, degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0)
+    float,
+    degrees(
+        "gamma_min = 90 - pressure angle: on the rise, of a swinging roller both ways; flat: 45",
+        above=0,
+        below=90,
+        example=60.0,
+    ),
 ]
 LeastCurvature = Annotated[float, part_mm("rho: least convex radius of the cam", least=0)]
 FollowerOffset = Annotated[
