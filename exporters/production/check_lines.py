@@ -112,9 +112,7 @@ def check_lines(
             walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
             text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"
         lines.append(text)
-        for sector in mate.get("sectors", []):
-            leaves = any(found["code"] == "sector_leaves_mesh" for found in mate.get("findings", []))
-            lines += _sector(sector, told, names, enters=sector["intermittent"] or leaves)
+        lines += [line for sector in mate.get("sectors", []) for line in _sector(sector, mate, told, names)]
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
         broken = [_condition(mate, c) for c in mate.get("conditions", []) if not c["met"]]
@@ -152,8 +150,9 @@ def check_lines(
     return [*lines, *_drives(checks, names, told)]
 
 
-def _sector(found: Mapping[str, Any], told: Words, names: Mapping[str, str], enters: bool) -> list[str]:
-    """Where the teeth of a sector are in mesh, what they move, and where it ``enters`` a mate that stands, how."""
+def _sector(found: Mapping[str, Any], mate: Mapping[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
+    """Where the teeth of a sector are in mesh, what they move, and where it enters a mate that stands, how."""
+    enters = found["intermittent"] or any(one["code"] == "sector_leaves_mesh" for one in mate.get("findings", ()))
     way, unit = (found["mate_travel"], "mm") if "mate_travel" in found else (found["mate_turn_deg"], "deg")
     numbers = {**called(found, names), "way": way, "unit": Message(_UNITS[unit])}
     lines = [told.text(_STEPPED if found["intermittent"] else _IN_MESH, **numbers)]

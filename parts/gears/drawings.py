@@ -92,12 +92,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
             if thing.sector is not None:
                 outline = subject.part.section(0.0).region.outer
                 views = views[0], views[1].plus(rounds=_sector_rounds(thing, outline)), *views[2:]
-            alike = keys.number_of_teeth if thing.sector is None else thing.sector.runs
-            more = (
-                _engraved(keys, subject)
-                + _sector_words(thing, subject)
-                + directions(thing.holes, subject, "zero_tooth", alike)
-            )
+            more = _requirements(keys, thing, subject, "zero_tooth")
         case NoncircularGearSpec() as keys:
             shape = shape_of(keys)
             circles = ("inner_root_diameter", "outer_tip_diameter")
@@ -108,12 +103,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
             more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
         case RingGearSpec() as keys:
             views = _ring(keys, thing, subject)
-            alike = keys.number_of_teeth if thing.sector is None else thing.sector.runs
-            more = (
-                _engraved(keys, subject)
-                + _sector_words(thing, subject)
-                + directions(thing.holes, subject, "zero_space", alike)
-            )
+            more = _requirements(keys, thing, subject, "zero_space")
         case RackSpec() as keys:
             views, more = _rack(keys, thing, subject), _ends(keys, subject)
         case WormSpec() as keys:
@@ -206,9 +196,14 @@ def _sector_rounds(gear: SpurGear | RingGear, toothed: Profile) -> list[Round]:
     return found
 
 
-def _sector_words(gear: SpurGear | RingGear, subject: Subject) -> tuple[str, ...]:
-    """Where the rim of a sector ends, which its sizes do not tell."""
-    return (subject.words("sector_rim"),) if gear.sector is not None and gear.sector.stands_off else ()
+def _requirements(
+    keys: SpurGearSpec | RingGearSpec, gear: SpurGear | RingGear, subject: Subject, zero: str
+) -> tuple[str, ...]:
+    """What is engraved, where the rim of a sector ends, which no size tells, and where holes stand from ``zero`` on."""
+    sector = gear.sector
+    alike = keys.number_of_teeth if sector is None else sector.runs
+    rim = (subject.words("sector_rim"),) if sector is not None and sector.stands_off else ()
+    return *_engraved(keys, subject), *rim, *directions(gear.holes, subject, zero, alike)
 
 
 def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:

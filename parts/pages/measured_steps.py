@@ -215,10 +215,7 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     tool, helix = "ball" if asked.helix else "pin", asked.helix
     size = f"{side.size}_{tool}s"
     if gear.sector is not None and not gear.sector.has_opposite_spaces(gear.number_of_teeth):
-        for key, value in (("pin_diameter", asked.pin_diameter), (f"measured_{side.size}_pins", asked.measured_size)):
-            if value is not None:
-                raise ParameterError(key, value, "no_opposite_spaces", Nearest(None))
-        page.note("no two spaces of the sector stand opposite each other: nothing is measured over pins or balls")
+        _without_pins(page, asked, side)
         return
     page.section(side.titles[bool(helix)])
     try:
@@ -271,6 +268,14 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         page.note(told, diameter=pin, least=Told(low, up=True), greatest=Told(high, up=False))
     if helix:
         page.note(_same_with_pins(gear, even=even))
+
+
+def _without_pins(page: Sheet, asked: Asked, side: _Side) -> None:
+    """A sector without two opposite spaces; raises ``ParameterError`` where pins are asked for."""
+    for key, value in (("pin_diameter", asked.pin_diameter), (f"measured_{side.size}_pins", asked.measured_size)):
+        if value is not None:
+            raise ParameterError(key, value, "no_opposite_spaces", Nearest(None))
+    page.note("no two spaces of the sector stand opposite each other: nothing is measured over pins or balls")
 
 
 def _same_with_pins(gear: Measured, *, even: bool) -> Text:

@@ -249,11 +249,10 @@ def _entry_margin(pair: Pair, index: int) -> float:
     mate, half = pair.gears[1 - index], _land(pair.sides[1 - index])
     if isinstance(pair, ExternalPair):
         left, met = _left(pair, index)[1], _met(pair, index)
-        corner = (
-            left + _ahead(pair, index) * mate.pitch_angle + _half(pair.gears[1 - index], pair.tip_form_radii[1 - index])
-        )
+        tooth = _half(pair.gears[1 - index], pair.tip_form_radii[1 - index])
+        corner = left + _ahead(pair, index) * mate.pitch_angle + tooth
         # beyond there a flank that touches the corner pushes it back
-        back = math.asin(pair.gears[index].base_radius / pair.working_centre_distance) - corner
+        back = math.asin(gear.base_radius / pair.working_centre_distance) - corner
         return mate.tip_radius * min(abs(math.remainder(left - met, mate.pitch_angle)) - half, back)
     return mate.tip_radius * (abs(math.remainder(2 * _met(pair, index) + half, mate.pitch_angle)) - half)
 

@@ -81,6 +81,42 @@ def _middle(keys: Raw) -> float:
     return (first + (n - 1) / 2 + 0.5 * ring) * 360 / keys["number_of_teeth"]
 
 
+def test_a_sector_whose_runs_follow_each_other_in_mesh_never_leaves_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One tooth of twenty is left out: the last one is in mesh as the first one comes."""
+    raw = pair("external_gear_pair", PINION | {"sector": {"teeth": 19}}, SECTOR | {"sector": {"teeth": 39}}, 3.0)
+    assert "sector_leaves_mesh" not in codes(found_of(raw, tmp_path, capsys)[1])
+
+
+@pytest.mark.parametrize(
+    ("kind", "second", "place"),
+    [
+        ("external_gear_pair", SECTOR | {"sector": None}, 0),
+        ("external_gear_pair", SECTOR | {"sector": None}, 1),
+        ("internal_gear_pair", RING, 0),
+        ("internal_gear_pair", RING, 1),
+        ("rack_pair", RACK, 0),
+    ],
+)
+def test_helical_teeth_are_in_mesh_earlier_or_later_by_their_lead(
+    kind: str, second: Raw, place: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Right-handed ones stand ahead at the top, by b tan(beta) / r: they are in mesh earlier, left-handed later."""
+    found = {}
+    for hand, other in (("right", "left"), ("left", "right")):
+        mate = hand if kind == "internal_gear_pair" else other
+        ends = [keys | {"helix_angle_deg": 20.0, "hand": mate} for keys in (PINION, second)]
+        ends[place] |= {"hand": hand, "sector": {"teeth": 7}}
+        first, last = ({k: v for k, v in keys.items() if v is not None} for keys in ends)
+        (found[hand],) = found_of(pair(kind, first, last, None), tmp_path, capsys)[1]["sectors"]
+    lead = math.degrees(5.0 * math.sin(math.radians(20)) / (PINION, second)[place]["number_of_teeth"])
+    for end in ("mesh_from_deg", "mesh_to_deg"):
+        assert found["left"][end] - found["right"][end] == pytest.approx(lead, rel=1e-9)
+    one = found["right"]
+    assert one["mesh_to_deg"] - one["mesh_from_deg"] == pytest.approx(one["mesh_angle_deg"], rel=1e-9)
+
+
 def test_a_sector_that_stands_out_of_mesh_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Without a drive too: a rack below it, its teeth to the right."""
     wrong = pair("rack_pair", SECTOR, RACK, None, direction_deg=-90.0)

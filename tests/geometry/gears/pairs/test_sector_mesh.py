@@ -193,6 +193,76 @@ def test_a_first_tooth_that_jams_meets_a_tip_from_outside(case: Case, jams: bool
     assert (pair.first.tip_radius - corner < 1e-6) is jams
 
 
+@pytest.mark.parametrize(
+    ("case", "back"),
+    [
+        (Case(12, 4, 11, x2=-0.1), True),
+        (Case(30, 7, 30), False),
+        (Case(24, 6, 17), False),
+    ],
+)
+def test_a_first_tooth_whose_flank_pushes_the_mate_back_is_told(case: Case, back: bool) -> None:
+    """Of the two ways in which the mate can make room where the first tooth runs into it, the free one is told."""
+    pair, one, two = made(case)
+    mesh = sector_meshes(pair)[0]
+    assert (mesh.entry_margin < 0) is back
+    steps = Steps(mesh, pair, 1)
+    stands, a = pair.second_rotation(steps.stands - mesh.last, contact=1), pair.working_centre_distance
+    standing = put(two, stands, a)
+    places = steps.first_touch - mesh.last + np.arange(-0.6, 0.2, 1e-3)
+    touch = next(rho for rho in places if put(one, rho).intersection(standing).area > 1e-7)
+    on, behind = (put(one, touch + 1e-3).intersection(put(two, stands + turn, a)).area for turn in (-2e-4, 2e-4))
+    assert (behind < on) is back
+
+
+def crossing(own: float, other: float, apart: float) -> complex:
+    """Where circles about 0 and about a place on the x axis cross above it, by bisection along the first."""
+    low, high = 0.0, math.pi
+    inside = abs(own - apart) < other
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if (abs(own * np.exp(1j * middle) - apart) < other) == inside else (low, middle)
+    return complex(own * np.exp(1j * low))
+
+
+def land(outline: Polygon, radius: float) -> float:
+    """Half of the angle of the tip land about +x of an outline, or of the tooth next to it, by its vertices."""
+    whole = np.array(outline.exterior.coords) @ np.array([1, 1j])
+    tips = np.sort(np.angle(whole[np.abs(np.abs(whole) - radius) < 1e-6]))
+    ends = np.flatnonzero(np.diff(tips) > 0.03)
+    return float(tips[ends[1]] - tips[ends[0] + 1]) / 2
+
+
+@pytest.mark.parametrize("teeth", [17, 20, 23, 24])
+@pytest.mark.parametrize("of_ring", [True, False])
+def test_the_margin_of_a_first_tooth_in_a_ring_is_that_to_the_next_land(teeth: int, of_ring: bool) -> None:
+    """The mate stands with a corner where the tip circles cross; the first tooth passes where they cross again."""
+    ring = RingGear(2.0, 60, math.radians(20), 150.0, RoundedRoot(1.25, 0.3), given_tip_diameter=117.0,
+                    sector=Sector(8, 0) if of_ring else None)  # fmt: skip
+    pinion = SpurGear(2.0, teeth, iso_53("A"), sector=None if of_ring else Sector(5, 0))
+    pair = internal_pair(pinion, ring)
+    (mesh,) = sector_meshes(pair).values()
+    mate: SpurGear | RingGear = pair.pinion if of_ring else pair.ring
+    shape = polygon(gear_region(pair.pinion).region.outer if of_ring else ring_region(pair.ring).region.holes[0])
+    half, a = land(shape, mate.tip_radius), pair.working_centre_distance
+    # seen from the mate's axis the mesh lies along +x, the other axis on the pinion's side of it or behind
+    other = pair.ring if of_ring else pair.pinion
+    met = float(np.angle(crossing(mate.tip_radius, other.tip_radius, -a if of_ring else a)))
+    middles = met + half + np.arange(-60, 60) * 2 * math.pi / mate.number_of_teeth
+    asked = mate.tip_radius * min(np.abs(middles + met) - half)
+    assert mesh.entry_margin == pytest.approx(asked, abs=1e-3)
+
+
+@pytest.mark.parametrize("teeth", [18, 25, 40, 61])
+def test_the_margin_of_a_first_tooth_on_a_rack_is_that_to_the_next_land(teeth: int) -> None:
+    """By Pythagoras on the rack's tip line, with lands of pi m / 2 - 2 m tan(20)."""
+    gear = SpurGear(2.0, teeth, iso_53("A"), sector=Sector(4, 0))
+    mesh = sector_meshes(rack_pair(gear, Rack(2.0, 16, iso_53("A"), 5.0)))[0]
+    met, wide = math.sqrt((teeth + 2) ** 2 - (teeth - 2) ** 2), math.pi - 4 * math.tan(math.radians(20))
+    lands = [(met + 2 * math.pi * k, met + wide + 2 * math.pi * k) for k in range(-20, 1)]
+    assert mesh.entry_margin == pytest.approx(min(max(low + met, -met - high) for low, high in lands), abs=1e-9)
+
+
 def test_what_stays_in_mesh_goes_not_beyond() -> None:
     mesh = SectorMesh(5, 2, 0.2, -0.1, 0.2, -0.4, 0.4, 1.0, 0.0)
     low, high = mesh.ends(0)
@@ -200,3 +270,5 @@ def test_what_stays_in_mesh_goes_not_beyond() -> None:
     assert mesh.beyond(low, high, 0.0) == 0.0
     assert mesh.beyond(low - 0.1, high, 0.0) == pytest.approx(0.1)
     assert mesh.beyond(math.pi - 0.1, math.pi + 0.75, math.pi) == pytest.approx(0.15)
+    # out of mesh at the start already, the first run nearer than the second
+    assert mesh.beyond(1.4, 1.4, 1.4) == pytest.approx(0.8)

@@ -162,6 +162,13 @@ def test_area_of_a_blank_is_that_of_disc_and_teeth() -> None:
     assert areas[3] + tooth == pytest.approx(whole, rel=1e-12)
 
 
+def offered(refusal: ParameterError | OffsetError) -> Any:
+    """What a refusal says would work."""
+    assert refusal.nearest is not None
+    assert refusal.nearest.value is not None
+    return refusal.nearest.value
+
+
 @pytest.mark.parametrize(
     ("sector", "name", "code"),
     [
@@ -196,10 +203,7 @@ def test_what_has_no_room_is_refused_with_what_has(sector: Sector, name: str, co
     with pytest.raises(ParameterError) as refused:
         checked_gear(gear(24, sector, bore_diameter=10.0))
     assert (refused.value.name, refused.value.code) == (name, code)
-    found = refused.value.nearest
-    assert found is not None
-    assert found.value is not None
-    cured = gear(24, replace(sector, **{name.partition(".")[2]: found.value}), bore_diameter=10.0)
+    cured = gear(24, replace(sector, **{name.partition(".")[2]: offered(refused.value)}), bore_diameter=10.0)
     checked_gear(cured)
     assert polygon(gear_region(cured).region.outer).is_valid
 
@@ -235,9 +239,7 @@ def test_a_hole_that_grows_into_the_side_of_a_cut_sector_is_refused() -> None:
     made = replace(gear(24, Sector(1, 0, 1, None, 14.0)), hub=HubHoles(None, (RoundHoles(1, 8.0, 28.0, 0.0),)))
     with pytest.raises(OffsetError) as refused:
         gear_region(made, -1.2)
-    near = refused.value.nearest
-    assert near is not None
-    section = gear_region(checked_gear(made), float(near.value)).region
+    section = gear_region(checked_gear(made), offered(refused.value)).region
     assert polygon(section.outer).contains(polygon(section.holes[0]))
 
 
@@ -256,10 +258,9 @@ def test_an_offset_that_closes_the_space_beside_a_run_is_refused(sector: Sector)
     with pytest.raises(OffsetError) as refused:
         gear_region(made, 4.0)
     assert refused.value.code == "closes_tooth_spaces"
-    near = refused.value.nearest
-    assert near is not None
-    assert polygon(gear_region(made, float(near.value)).region.outer).is_valid
-    assert 3.0 < float(near.value) < 4.0
+    near = offered(refused.value)
+    assert 3.0 < near < 4.0
+    assert polygon(gear_region(made, near).region.outer).is_valid
 
 
 @pytest.mark.parametrize("corner", [5.0, 12.0, 55.0])
@@ -273,9 +274,7 @@ def test_corners_of_a_ring_that_have_no_room_are_refused(corner: float) -> None:
     with pytest.raises(ParameterError) as refused:
         checked_ring(ring(corner))
     assert (refused.value.name, refused.value.code) == ("sector.corner_radius", "corner_has_no_room")
-    near = refused.value.nearest
-    assert near is not None
-    assert polygon(ring_region(checked_ring(ring(float(near.value)))).region.holes[0]).is_valid
+    assert polygon(ring_region(checked_ring(ring(offered(refused.value)))).region.holes[0]).is_valid
 
 
 @pytest.mark.parametrize("sign", [1, -1])
