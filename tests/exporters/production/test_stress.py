@@ -132,7 +132,7 @@ def test_a_folder_that_cannot_be_made_is_told_before_all_is_computed(
     def computed() -> list[Row]:
         raise AssertionError
 
-    monkeypatch.setattr(stress, "atlas", computed)
+    monkeypatch.setattr("exporters.command.stress.atlas", computed)
     (tmp_path / "file").write_text("", "utf-8")
     assert run("stress", "--out", tmp_path / "file") == 2
     assert capsys.readouterr().err == (
@@ -148,7 +148,7 @@ def _rows(error: float) -> list[Row]:
 def test_a_lost_digit_is_the_exit_code(
     error: float, code: int, word: str, tmp_path: Path, capsys: pytest.CaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(stress, "atlas", lambda: _rows(error))
+    monkeypatch.setattr("exporters.command.stress.atlas", lambda: _rows(error))
     assert run("stress", "--out", tmp_path) == code
     shown = capsys.readouterr().out
     assert shown.split()[-3] == word
