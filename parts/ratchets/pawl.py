@@ -61,6 +61,9 @@ _TAIL_WIDTH = part_mm("of its round end; default: the boss's three quarters", ab
 Length = Annotated[float, _LENGTH_KEY] | None
 LineAngle = Annotated[float, _LINE] | None
 NoseRadius = Annotated[float, _NOSE_KEY] | None
+NoseHeight = Annotated[float, _HEIGHT_KEY] | None
+ClearanceAngle = Annotated[float, degrees("between its underside and the tooth's back", least=0, most=60)]
+Clearance = Annotated[float, _CLEARANCE_KEY] | None
 BossDiameter = Annotated[float, _BOSS_KEY] | None
 PivotDiameter = Annotated[float, _PIVOT_KEY] | None
 
@@ -72,11 +75,9 @@ class PawlSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_field="ki
     length: Length = None
     line_angle_deg: LineAngle = None
     nose_radius: NoseRadius = None
-    nose_height: Annotated[float, _HEIGHT_KEY] | None = None
-    clearance_angle_deg: Annotated[float, degrees("between its underside and the tooth's back", least=0, most=60)] = (
-        10.0
-    )
-    clearance: Annotated[float, _CLEARANCE_KEY] | None = None
+    nose_height: NoseHeight = None
+    clearance_angle_deg: ClearanceAngle = 10.0
+    clearance: Clearance = None
     boss_diameter: BossDiameter = None
     pivot_diameter: PivotDiameter = None
     tail_length: Annotated[float, _TAIL] = 0.0

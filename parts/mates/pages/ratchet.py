@@ -16,12 +16,24 @@ from parts.keys.base import size
 from parts.mates.ratchet import Friction, RatchetPairSpec
 from parts.pages.inputs import SceneKeys, calculation, chosen_part, given
 from parts.pages.page import Sheet
-from parts.ratchets.pawl import PAWL, BossDiameter, Length, LineAngle, NoseRadius, PawlSpec, PivotDiameter
+from parts.ratchets.pawl import (
+    PAWL,
+    BossDiameter,
+    Clearance,
+    ClearanceAngle,
+    Length,
+    LineAngle,
+    NoseHeight,
+    NoseRadius,
+    PawlSpec,
+    PivotDiameter,
+)
 from parts.ratchets.wheel import RATCHET_WHEEL, RatchetWheelSpec
 
 TOPIC = "ratchet"
-# the keys of a pawl that the page takes over
-_OF_PAWL = ("length", "line_angle_deg", "nose_radius", "boss_diameter", "pivot_diameter")
+# the keys of a pawl that the page takes over: all that say how it stands and rides
+_OF_PAWL = ("length", "line_angle_deg", "nose_radius", "nose_height", "clearance_angle_deg", "clearance",
+            "boss_diameter", "pivot_diameter")  # fmt: skip
 _PAWLS_AT = Meta(
     min_length=1,
     max_length=100,
@@ -38,6 +50,9 @@ class RatchetKeys(RatchetWheelSpec, kw_only=True, tag=False, forbid_unknown_fiel
     length: Length = None
     line_angle_deg: LineAngle = None
     nose_radius: NoseRadius = None
+    nose_height: NoseHeight = None
+    clearance_angle_deg: ClearanceAngle = 10.0
+    clearance: Clearance = None
     boss_diameter: BossDiameter = None
     pivot_diameter: PivotDiameter = None
     pawls_at: Annotated[list[float], _PAWLS_AT] | None = None

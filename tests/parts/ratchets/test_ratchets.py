@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import math
 import random
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+from exporters.command.cli import main
 from exporters.production.check import scene_checks
 from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
@@ -206,6 +209,29 @@ def test_a_random_ratchet_rides_or_is_refused(seed: int) -> None:
     turn = shape.overrun + draw.uniform(0.05, 0.95) * shape.wheel.pitch_angle
     found, _ = ridden(shape, turn)
     assert shape.stands(turn) == pytest.approx(found, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    "own", [{"clearance_angle_deg": 1.0}, {"clearance": 2.5}, {"clearance_angle_deg": 25.0, "nose_height": 2.0}]
+)
+def test_the_calculation_is_that_of_the_scene_s_own_pawl(
+    own: Keys, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The distance at which it stands, and the ride as polygons of what the scene makes have it."""
+    keys = "".join(f"{key} = {value}\n" for key, value in own.items())
+    scene = tmp_path / "ratchet.toml"
+    scene.write_text(
+        '[parts.wheel]\nkind = "ratchet_wheel"\nmodule = 5.0\nnumber_of_teeth = 16\nface_width = 10.0\n'
+        f'[parts.pawl]\nkind = "pawl"\nof = "wheel"\nface_width = 10.0\n{keys}'
+    )
+    assert main(["calc", "ratchet", str(scene), "rows=9", "--format", "json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "pawl": PAWL | own}}, "t", "t"), "t")
+    shape = made["pawl"].thing.shape
+    assert told["values"]["pivot_distance"] == pytest.approx(abs(shape.pivot), rel=1e-12)
+    for row in told["ride"][1:-1]:
+        found, _ = ridden(shape, math.radians(row["φ"]))
+        assert math.radians(row["ψ"]) == pytest.approx(found, abs=1e-3)
 
 
 def test_a_pawl_is_for_one_wheel() -> None:
