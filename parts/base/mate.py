@@ -164,6 +164,11 @@ class Mating(Joined, kw_only=True):
         return None
 
     @property
+    def placed_turn(self) -> float | None:
+        """Turn that a key of the mate gives a second that it places, rad; None: no key does."""
+        return self.asked_turn
+
+    @property
     def holds(self) -> tuple[str, ...]:
         """Instances that stand still by this mate."""
         return ()

@@ -118,6 +118,11 @@ class CarriedMating(Mating):
 
     bond = "turning"
 
+    @property
+    def placed_turn(self) -> float | None:
+        """Of ``coaxial``; what is carried turns as other mates have it."""
+        return self.rotation if self.kind == Coaxial.name else None
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """About its place on the carrier, turned with it as it is placed."""
         if self.offset is None:

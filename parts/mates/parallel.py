@@ -36,6 +36,11 @@ class ParallelMating(Mating):
 
     asks_height = False
 
+    @property
+    def placed_turn(self) -> float | None:
+        """Against the first."""
+        return self.rotation
+
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Beside the first, turned as it is."""
         if self.offset is None:

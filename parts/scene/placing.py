@@ -41,8 +41,8 @@ class Condition(Record):
     """What two placed instances must satisfy: ``value`` within ``tolerance`` of ``required``.
 
     ``code`` with unit: "centre_distance" mm, "apex_distance" mm, "shaft_angle" degrees, "phase" (rotation of the
-    second) degrees, "fixed_phase" (the same in the first's frame), "common_face_width" mm (at least), "train" (turns of
-    the second for one of the first).
+    second) degrees, "fixed_phase" (the same in the first's frame), "placed_phase" (the same by the key of the mate
+    that has placed it), "common_face_width" mm (at least), "train" (turns of the second for one of the first).
     """
 
     code: str
@@ -144,7 +144,11 @@ def place(
     mates = tuple(placed.join(index, mating) for index, mating in enumerate(matings))
     placed.lay_out()
     stand = placed.stand
-    mates = tuple(_closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second])) for m in mates)
+    placers = {m.mating.second: m.mating for m in mates if not m.only_checks}
+    mates = tuple(
+        _closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second]), placers.get(m.mating.second))
+        for m in mates
+    )
     mates = _with_faces_and_speeds(mates, parts)
     instances = tuple(replace(stand[i], subassembly=spec.subassembly) for i, spec in specs.items())
     train = None
@@ -324,8 +328,11 @@ def _reach(part: Part) -> float:
     return part.section(0.0).region.outer.reach()
 
 
-def _closed(mate: PlacedMate) -> PlacedMate:
-    """A mate between two instances that stood before it: centre distance and phase, with the numbers."""
+def _closed(mate: PlacedMate, placer: Mating | None) -> PlacedMate:
+    """A mate between two instances that stood before it: centre distance and phase, with the numbers.
+
+    ``placer``: the mate that has placed the second.
+    """
     if not mate.only_checks:
         return mate
     from parts.base.mate import Toothed
@@ -348,9 +355,11 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     if found.slides:
         conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
     else:
-        # where a key of the mate turns the second, that key is what makes it fit
-        asked = mate.mating.asked_turn
+        # where a key of the mate turns the second, or of the mate that has placed it, that key is what makes it fit
+        asked, typed = mate.mating.asked_turn, None if placer is None else placer.placed_turn
         code, turn = ("phase", mate.second.rotation) if asked is None else ("fixed_phase", asked + off)
+        if asked is None and typed is not None and mate.second.axis == UPWARDS:
+            code, turn = "placed_phase", typed
         slack = math.degrees(found.play + found.slack(allowed))
         conditions.append(Condition(code, math.degrees(turn), math.degrees(turn - off), slack, met))
     return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)

@@ -199,7 +199,10 @@ def test_a_pinion_that_stands_by_itself_is_held_against_the_play(off: float) -> 
     }
     plan = plan_build(scene_from_dict(raw, "t", "t"), "t", [], [])
     mate = scene_checks(plan.placing, plan.parts, [], "en", contact=True)["mates"][1]
-    phase = next(c for c in mate["conditions"] if c["code"] == "phase")
+    # by the key of the mate that has placed it
+    phase = next(c for c in mate["conditions"] if c["code"] == "placed_phase")
+    assert phase["value"] == pytest.approx(180 - 360 / 16 + off)
+    assert math.remainder(phase["value"] - phase["required"] - off, 360 / 8) == pytest.approx(0.0, abs=1e-6)
     assert phase["tolerance"] == pytest.approx(math.degrees(0.1 / 8), abs=1e-4)
     assert phase["met"] == (abs(off) < 0.71)
     if phase["met"]:

@@ -1,9 +1,12 @@
 """Instances fixed to each other: carried along by what they stand on, checked as solids."""
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
+from exporters.command.cli import main
 from exporters.production.check import scene_checks
 from exporters.production.check_lines import check_lines, has_bad_verdict
 from parts.scene.load import SceneError, make_parts, scene_from_toml
@@ -88,3 +91,85 @@ def test_between_placed_instances_it_only_checks(at: str, broken: set[str]) -> N
 def test_wrong_offset_names_the_key() -> None:
     with pytest.raises(SceneError, match="offset"):
         placed("0.0, 0.0")
+
+
+# a set of David with wheels of its own, 48 / 72 and 45 / 75, below a wheel that is turned as the mesh with it asks
+TWO_MESHES = """
+[defaults]
+module = 2.0
+face_width = 8.0
+[parts.first]
+kind = "spur_gear"
+number_of_teeth = 70
+[parts.second]
+kind = "spur_gear"
+number_of_teeth = 31
+[parts.low]
+kind = "spur_gear"
+number_of_teeth = 75
+[parts.satellite]
+kind = "spur_gear"
+number_of_teeth = 45
+[parts.twin]
+kind = "spur_gear"
+number_of_teeth = 48
+[parts.high]
+kind = "spur_gear"
+number_of_teeth = 72
+[[mates]]
+kind = "external_gear_pair"
+first = "first"
+second = "second"
+direction_deg = 17.0
+[[mates]]
+kind = "coaxial"
+first = "second"
+second = "low"
+height = 20.0
+[[mates]]
+kind = "external_gear_pair"
+first = "low"
+second = "satellite"
+[[mates]]
+kind = "fixed"
+first = "satellite"
+second = "twin"
+offset = [0.0, 0.0, 10.0]
+[[mates]]
+kind = "{kind}"
+first = "second"
+second = "high"
+{place}
+{turn}
+[[mates]]
+kind = "external_gear_pair"
+first = "twin"
+second = "high"
+"""
+PLACES = {
+    "coaxial": "height = 30.0",
+    "fixed": "offset = [0.0, 0.0, 30.0]",
+    "parallel": "offset = [0.0, 0.0, 30.0]",
+}
+
+
+@pytest.mark.parametrize("kind", PLACES)
+@pytest.mark.parametrize("begun", [0.0, 100.0])
+def test_the_turn_that_is_told_fits_where_it_is_typed(
+    kind: str, begun: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Of a wheel that a mate with a key of its turn has placed: it is that key whose value is told."""
+    file = tmp_path / "set.toml"
+
+    def checked(turn: float) -> tuple[int, str]:
+        file.write_text(TWO_MESHES.format(kind=kind, place=PLACES[kind], turn=f"rotation_deg = {turn!r}"))
+        return main(["check", str(file)]), capsys.readouterr().out
+
+    code, said = checked(begun)
+    (told,) = re.findall(r"the mate that places high has rotation_deg = (\S+), (\S+) makes it fit", said)
+    assert code == 1
+    assert float(told[0]) == begun
+    _, fits = checked(float(told[1]))
+    assert "stands turned" not in fits
+    assert "pair twin - high: a_w = 120.00000 mm" in fits
+    assert float(re.findall(r"twin - high.*CONTACT, least gap (\S+) mm", fits)[0]) == pytest.approx(0.0, abs=1e-6)

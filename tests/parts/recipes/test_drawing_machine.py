@@ -143,7 +143,7 @@ def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.Captu
     turned = made.read_text("utf-8").replace('first = "cam_x"\nsecond = "cam_y"', 'first = "cam_y"\nsecond = "cam_x"')
     made.write_text(turned.replace("height = 3.0", "height = -3.0"), encoding="utf-8")
     assert main(["check", str(made)]) == 1
-    assert "Cam of the table stands turned by" in capsys.readouterr().out
+    assert "Cam of the table stands turned off Cam of the pen" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(("keys", "code", "key"), [
