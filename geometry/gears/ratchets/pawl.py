@@ -273,7 +273,10 @@ class PawlShape(Record, dict=True):
         return 0.0 if pitch - found <= _SEATED * pitch else found
 
     def stands(self, turn: float) -> float:
-        """The same before it has dropped once: the greatest of all angles at which something touches, rad."""
+        """The same before it has dropped once: the greatest of all angles at which something touches, rad.
+
+        On an arc of the root circle it stands as it is seated.
+        """
         side = self.wheel.side
         touching = (math.remainder(-side * angle, math.tau) for angle in self._touching(turn))
         return max((angle for angle in touching if 0 <= angle < math.pi / 2), default=0.0)
@@ -307,12 +310,6 @@ class PawlShape(Record, dict=True):
                 seen = cmath.phase((pivot + nose * cmath.exp(1j * angle)) / edge)
                 if -_NEAR <= seen <= land + _NEAR:
                     yield angle
-            if notch.has_root_land and back == 0:
-                first = notch.first * placed
-                for angle in _onto_circle(nose, -pivot, wheel.root_radius + side * radius):
-                    seen = cmath.phase((pivot + nose * cmath.exp(1j * angle)) / first)
-                    if -_NEAR <= seen <= wheel.root_land_angle + _NEAR:
-                        yield angle
             for line in (under, lower) if side > 0 else ():
                 for angle in _line_onto(line, -pivot, wheel.tip_radius, side):
                     normal = -1j * (line.end - line.start) / abs(line.end - line.start) * cmath.exp(1j * angle)

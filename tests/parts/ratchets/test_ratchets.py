@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import json
 import math
 import random
@@ -16,7 +17,7 @@ from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
-from tests.geometry.gears.ratchets.test_ratchets import ridden
+from tests.geometry.gears.ratchets.test_ratchets import blocked, ridden
 from tests.sampling import some_of
 
 Keys = dict[str, Any]
@@ -84,6 +85,58 @@ def test_pawls_stand_at_their_teeth_or_between_them() -> None:
         assert (one.centre, one.rotation) == pytest.approx((two.centre, two.rotation))
 
 
+def test_a_wheel_that_a_pawl_holds_does_not_turn_back() -> None:
+    """At every tooth: what rounding leaves of its direction is no whole pitch to turn back by."""
+    for tooth in range(1, 17):
+        _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": float(tooth)}])
+        assert checks["mates"][0]["turn_back_deg"] == pytest.approx(0.0, abs=1e-6)
+
+
+# with what a pawl touches the wheel: the turn, rad, at which it does
+TOUCHING: dict[str, tuple[Keys, Keys, float]] = {
+    "nose and face": (WHEEL | {"number_of_teeth": 12, "front_angle_deg": 0.26, "notch_angle_deg": 49.5,
+                               "tooth_depth": 6.48}, PAWL | {"line_angle_deg": -11.1}, 0.517),
+    "nose and face of five": (WHEEL | {"number_of_teeth": 5, "front_angle_deg": -14.8, "notch_angle_deg": 57.4,
+                                       "root_fillet_radius": 0.0}, PAWL | {"nose_radius": 0.89}, 1.2409),
+    "face and edge": (WHEEL | {"number_of_teeth": 3, "front_angle_deg": -18.0, "root_fillet_radius": 0.0}, PAWL,
+                      2.0682),
+    "lower side and edge": (WHEEL | {"number_of_teeth": 3, "front_angle_deg": -28.0, "notch_angle_deg": 94.0,
+                                     "tip_land": 5.1, "root_fillet_radius": 0.81},
+                            PAWL | {"length": 9.575, "clearance": 0.013}, 0.46),
+    "the land of the next tooth": (WHEEL | {"number_of_teeth": 6, "tooth_depth": 4.891, "front_angle_deg": -29.0,
+                                            "notch_angle_deg": 24.4, "root_fillet_radius": 0.0},
+                                   PAWL | {"line_angle_deg": -12.7, "boss_diameter": 16.0}, 1.0079),
+    "underside and land": (WHEEL | {"number_of_teeth": 6, "front_angle_deg": 6.7},
+                           PAWL | {"line_angle_deg": 10.2, "length": 21.4}, 0.7453),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("wheel", "pawl", "turn"), TOUCHING.values(), ids=TOUCHING.keys())
+def test_each_side_of_a_pawl_may_be_what_touches(wheel: Keys, pawl: Keys, turn: float) -> None:
+    """Front angles and lines of no practice too; by polygons."""
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": wheel, "pawl": pawl}}, "t", "t"), "t")
+    shape = made["pawl"].thing.shape
+    assert shape.overrun <= turn <= shape.overrun + shape.wheel.pitch_angle
+    found, below = ridden(shape, turn)
+    assert shape.stands(turn) == pytest.approx(found, abs=3e-4)
+    assert below > 1e-6
+
+
+def test_a_pawl_that_leaves_the_face_below_the_edge_drops_later() -> None:
+    """By polygons: all of its way down is free a little after the overrun, and not where its reach clears the edge."""
+    wheel = WHEEL | {"number_of_teeth": 4, "front_angle_deg": -22.5, "notch_angle_deg": 43.5, "root_fillet_radius": 0.0}
+    pawl = PAWL | {"line_angle_deg": 20.0, "clearance_angle_deg": 33.0, "clearance": 3.06}
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": wheel, "pawl": pawl}}, "t", "t"), "t")
+    shape = made["pawl"].thing.shape
+    # by the law of cosines the nose is past the edge at this turn
+    apart, tip = abs(shape.pivot), shape.wheel.tip_radius
+    reach = abs(shape.nose - shape.pivot) + shape.nose_radius
+    past = math.acos((apart**2 + tip**2 - reach**2) / (2 * apart * tip)) - abs(cmath.phase(shape.pivot))
+    assert blocked(shape, 1.02 * shape.overrun) < 1e-5
+    assert shape.overrun > 1.2 * past
+    assert blocked(shape, past) > 1e-4
+
+
 def test_conditions_of_a_pair_are_told_with_their_numbers() -> None:
     _, checks = placed(WHEEL | {"front_angle_deg": 5.0}, PAWL)
     (found,) = checks["mates"][0]["findings"]
@@ -114,6 +167,9 @@ def test_a_pawl_that_stands_elsewhere_is_told() -> None:
 REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
     "no land": (WHEEL | {"notch_angle_deg": 85.0}, None, "notch_angle_deg", "leaves_no_land"),
     "wide land": (WHEEL | {"tip_land": 15.8}, None, "tip_land", "leaves_no_notch"),
+    "hardly a notch": (WHEEL | {"tip_land": 15.69}, None, "tip_land", "leaves_no_notch"),
+    "no neck": (WHEEL | {"number_of_teeth": 6, "front_angle_deg": 25.0, "notch_angle_deg": 40.0, "tip_land": 1.0,
+                         "tooth_depth": 8.0}, None, "tooth_depth", "leaves_no_neck"),
     "deep": (WHEEL | {"tooth_depth": 41.0}, None, "tooth_depth", "leaves_no_root_circle"),
     "round root": (WHEEL | {"root_fillet_radius": 6.0}, None, "root_fillet_radius", "rounding_takes_face"),
     "narrow": (WHEEL | {"tip_land": 12.0, "notch_angle_deg": 50.0}, None, "tip_land", "notch_too_narrow"),
@@ -128,6 +184,14 @@ REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
     "tail of a ring's pawl": (RING, PAWL | {"tail_length": 60.0}, "tail_length", "tail_reaches_teeth"),
     "tail beside the wheel": (WHEEL, PAWL | {"tail_length": 30.0, "tail_angle_deg": -60.0}, "tail_length",
                               "tail_reaches_teeth"),
+    "tail that hits as the pawl swings": (
+        WHEEL, PAWL | {"tail_length": 10.0, "tail_angle_deg": -60.0, "tail_width": 3.0}, "tail_length",
+        "tail_reaches_teeth"),
+    "tail that hits seated": (RING, PAWL | {"tail_length": 90.0, "tail_angle_deg": 120.0, "tail_width": 6.0},
+                              "tail_length", "tail_reaches_teeth"),
+    "tail whose middle hits": (WHEEL, PAWL | {"tail_length": 30.0, "tail_angle_deg": -50.0, "tail_width": 3.0},
+                               "tail_length", "tail_reaches_teeth"),
+    "tail within the boss": (WHEEL, PAWL | {"tail_length": 0.5}, "tail_length", "no_whole_outline"),
     "four teeth of a ring": (RING | {"number_of_teeth": 4}, None, "number_of_teeth", "back_does_not_fall"),
     "short": (WHEEL | {"number_of_teeth": 20, "tip_land": 2.0},
               PAWL | {"line_angle_deg": 36.0, "length": 8.0, "boss_diameter": 5.0, "pivot_diameter": 2.0},

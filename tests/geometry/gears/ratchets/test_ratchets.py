@@ -130,23 +130,23 @@ def test_a_pawl_rides_where_polygons_first_meet(name: str, clearance: float, lin
         assert below > _NOTHING
 
 
+def blocked(pawl: PawlShape, turn: float) -> float:
+    """By polygons: the most that is in the way, mm^2, as a pawl comes down from a land to where it stands."""
+    fixed = affinity.rotate(wheel_polygon(pawl.wheel), turn, (0, 0), use_radians=True)
+    own, pivot = polygon(pawl.edges()), (pawl.pivot.real, pawl.pivot.imag)
+    lifts = np.linspace(pawl.swing, pawl.stands(turn) + 1e-3, 60)
+    swung = [affinity.rotate(own, -pawl.wheel.side * x, pivot, use_radians=True) for x in lifts.tolist()]
+    return max(float(one.intersection(fixed).area) for one in swung)
+
+
 @pytest.mark.parametrize("name", WHEELS)
 def test_a_pawl_drops_where_the_edge_is_beyond_its_reach(name: str) -> None:
     """A little later all of its way down is free, a little earlier not; seated it overlaps nothing."""
     pawl = pawl_for(WHEELS[name])
-    wheel, pivot = wheel_polygon(pawl.wheel), (pawl.pivot.real, pawl.pivot.imag)
-    own = polygon(pawl.edges())
-    assert own.intersection(wheel).area < 1e-3
-
-    def blocked(turn: float) -> float:
-        fixed = affinity.rotate(wheel, turn, (0, 0), use_radians=True)
-        lifts = np.linspace(pawl.swing, pawl.stands(turn) + 1e-3, 60)
-        swung = [affinity.rotate(own, -pawl.wheel.side * x, pivot, use_radians=True) for x in lifts.tolist()]
-        return max(float(one.intersection(fixed).area) for one in swung)
-
+    assert polygon(pawl.edges()).intersection(wheel_polygon(pawl.wheel)).area < 1e-3
     assert pawl.overrun > 0
-    assert blocked(pawl.overrun * 1.01) < 1e-5
-    assert blocked(pawl.overrun * 0.8) > 1e-5
+    assert blocked(pawl, pawl.overrun * 1.01) < 1e-5
+    assert blocked(pawl, pawl.overrun * 0.8) > 1e-5
 
 
 @pytest.mark.parametrize("name", WHEELS)
