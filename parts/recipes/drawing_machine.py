@@ -40,8 +40,9 @@ _RIM = 1.0
 _ROWS = 720
 # mm: a larger prime circle is none to be made; the handle above its crank, and that where nobody says it
 _MOST_PRIME, _HANDLE, _CRANK_LENGTH = 500.0, 25.0, 30.0
-# of the smoothing, and of the pressure angle, tried where they ask for such cams
-_SMOOTHER, _STEEPER = (1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0), (1.5, 2.0, 3.0, 4.0, 6.0)
+# of the smoothing, and of the pressure angle, tried where they ask for such cams; of one that works, how near to the
+# least the search ends, as each trial makes both cams
+_SMOOTHER, _STEEPER, _NEAR = (1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0), (1.5, 2.0, 3.0, 4.0, 6.0), 0.02
 
 _PICTURE = 'closed line by its corners x, y, y upwards, in any unit; or { file = "heart.svg" }, a path of an SVG'
 _SIZE = mm("of the drawing: the greater one of its width and height", above=0, most=500)
@@ -177,7 +178,7 @@ class _Making(Making):
             if asked > _MOST_PRIME:
                 given = getattr(keys, name)
                 works = partial(self._works, name)
-                cure = partial(nearest, works, given, [given * share for share in shares])
+                cure = partial(nearest, works, given, [given * share for share in shares], share=_NEAR)
                 raise ParameterError(name, given, "cams_too_large", cure, most=_MOST_PRIME)
         return float(math.ceil(round(max(room + _APART - min(self.low), pressure, curved), 6)))
 
