@@ -77,27 +77,7 @@ def build(
             if file_job.path in spent:
                 written[-1].seconds["approximate"] = spent[file_job.path]
         progress(plan.scene.name)
-        wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
-        outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
-        previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
-        laid = any(assembly.export.is_laid for assembly in plan.assemblies)
-        others = {key: part for key, part in plan.parts.items() if key not in wanted}
-        # rods that are cut to length, and what boards and plates have no room for, belong to the model all the same
-        if len(plan.placing.instances) > 1 and (laid or all(part.stock for part in others.values())):
-            rest = {key: outlines_of(part.section(0.0).region) for key, part in others.items()}
-            previews.append(scene_preview(plan, {**outlines, **rest}, checks, staging))
-            if plan.scene.steps:
-                from exporters.production.exploded_preview import exploded_preview
-
-                previews.append(exploded_preview(plan, staging))
-        if laid:
-            from exporters.production.laid_preview import laid_previews
-
-            previews += laid_previews(plan, staging)
-        if laid or plan.scene.scene.notes or plan.scene.steps:
-            from exporters.production.notes import write_notes
-
-            previews.append(write_notes(plan, staging))
+        previews = _previews(plan, checks, staging)
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
             before = whole_report(folder)
@@ -108,6 +88,32 @@ def build(
     return Built(
         tuple(written), tuple(folder / p.name for p in previews), checks, tuple(folder / name for name in left)
     )
+
+
+def _previews(plan: Plan, checks: dict[str, Any], staging: Path) -> list[Path]:
+    """Pictures of every part that is made, of the whole, of boards and beds; how it is made and used."""
+    wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
+    outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
+    previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
+    laid = any(assembly.export.is_laid for assembly in plan.assemblies)
+    others = {key: part for key, part in plan.parts.items() if key not in wanted}
+    # rods that are cut to length, and what boards and plates have no room for, belong to the model all the same
+    if len(plan.placing.instances) > 1 and (laid or all(part.stock for part in others.values())):
+        rest = {key: outlines_of(part.section(0.0).region) for key, part in others.items()}
+        previews.append(scene_preview(plan, {**outlines, **rest}, checks, staging))
+        if plan.scene.steps:
+            from exporters.production.exploded_preview import exploded_preview
+
+            previews.append(exploded_preview(plan, staging))
+    if laid:
+        from exporters.production.laid_preview import laid_previews
+
+        previews += laid_previews(plan, staging)
+    if laid or plan.scene.scene.notes or plan.scene.steps:
+        from exporters.production.notes import write_notes
+
+        previews.append(write_notes(plan, staging))
+    return previews
 
 
 def _checks(plan: Plan) -> dict[str, Any]:

@@ -49,14 +49,7 @@ def scene_schema() -> str:
         if "description" in table:
             # a docstring, which an editor shows as it stands
             table["description"] = inspect.cleandoc(table["description"]).replace("``", "")
-    # a motion may stand in a file
-    file = {"type": "object", "properties": {"file": {"type": "string"}}, "required": ["file"],
-            "additionalProperties": False}  # fmt: skip
-    for table in schema["$defs"].values():
-        properties = table.get("properties", {})
-        for key in (key for key in KEYS if key in properties):
-            own = properties[key]
-            properties[key] = {**own, "anyOf": [*own["anyOf"], file]} if "anyOf" in own else {"anyOf": [own, file]}
+        _add_files(table.get("properties", {}))
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
     recipes = [(entry.keys.__name__, WORDS) for entry in RECIPES.values()]
@@ -83,6 +76,15 @@ def scene_schema() -> str:
     keys["additionalProperties"] = {"anyOf": [keys["additionalProperties"], {"not": {"required": ["kind"]}}]}
     schema["$defs"]["Scene"]["anyOf"] = [{"required": ["parts"]}, {"required": ["assemblies"]}]
     return json.dumps({"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}, indent=1) + "\n"
+
+
+def _add_files(properties: dict[str, Any]) -> None:
+    """What may stand in a file of the user's: a motion, a picture."""
+    file = {"type": "object", "properties": {"file": {"type": "string"}}, "required": ["file"],
+            "additionalProperties": False}  # fmt: skip
+    for key in (key for key in KEYS if key in properties):
+        own = properties[key]
+        properties[key] = {**own, "anyOf": [*own["anyOf"], file]} if "anyOf" in own else {"anyOf": [own, file]}
 
 
 def _if_kind(kind: str, keys: list[str]) -> dict[str, Any]:
