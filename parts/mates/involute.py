@@ -405,7 +405,7 @@ def _sectors(keys: InvolutePairKeys, pair: Pair, face: CommonFace) -> dict[str, 
     Raises
     ------
     ParameterError
-        What is to move the other step by step is no sector, or helical, or never lets it stand.
+        What is to move the other step by step is no sector, or helical, or never lets it stand, or the other is a sector.
     """
     way: str | None = getattr(keys, "intermittent", None)
     if way is None and all(gear.sector is None for gear in pair.gears):
@@ -418,6 +418,8 @@ def _sectors(keys: InvolutePairKeys, pair: Pair, face: CommonFace) -> dict[str, 
         return {"sectors": tuple(found.items())}
     if 0 not in found:
         raise ParameterError("mate.intermittent", way, "intermittent_needs_sector", Nearest(None))
+    if 1 in found:
+        raise ParameterError("mate.intermittent", way, "intermittent_needs_whole_mate", Nearest(None))
     if face.helix.angle:
         raise ParameterError("mate.intermittent", way, "intermittent_needs_straight_teeth", Nearest(None))
     steps = Steps(found[0], pair, 1 if way == "counter_clockwise" else -1)

@@ -168,6 +168,9 @@ def test_a_first_tooth_that_jams_is_told(
         (PINION, PINION, "intermittent_needs_sector"),
         (PINION | {"helix_angle_deg": 20.0, "sector": {"teeth": 4}},
          PINION | {"helix_angle_deg": 20.0, "hand": "left"}, "intermittent_needs_straight_teeth"),
+        # films had it go on by itself where its teeth are missing
+        (GEAR | {"number_of_teeth": 27, "sector": {"teeth": 2, "runs": 3}}, PINION | {"sector": {"teeth": 6}},
+         "intermittent_needs_whole_mate"),
         (PINION | {"sector": {"teeth": 19}}, PINION, "intermittent_never_stands"),
     ],
 )  # fmt: skip
@@ -181,6 +184,7 @@ def test_what_cannot_stand_between_runs_is_refused(
     (tmp_path / "s.toml").write_text(text + table("[[mates]]", raw["mates"][0]), encoding="utf-8")
     assert run("check", tmp_path / "s.toml") == 2
     told = capsys.readouterr().err
-    words = {"needs_sector": "with a sector", "needs_straight_teeth": "straight teeth", "never_stands": "never stand"}
+    words = {"needs_sector": "with a sector", "needs_straight_teeth": "straight teeth", "never_stands": "never stand",
+             "needs_whole_mate": "all its teeth"}  # fmt: skip
     assert words[code.removeprefix("intermittent_")] in told
     assert "remove intermittent" in told
