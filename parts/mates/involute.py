@@ -405,7 +405,7 @@ def _sectors(keys: InvolutePairKeys, pair: Pair, face: CommonFace) -> dict[str, 
     Raises
     ------
     ParameterError
-        What is to move the other step by step is no sector, or helical, or never lets it stand, or the other is a sector.
+        What is to move the other step by step is no sector, or helical, or never lets it stand; or that is a sector.
     """
     way: str | None = getattr(keys, "intermittent", None)
     if way is None and all(gear.sector is None for gear in pair.gears):
