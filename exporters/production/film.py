@@ -30,8 +30,8 @@ _SECONDS, _LEAST, _MOST = 4.0, 4.0, 60.0
 _MOST_TURNS, _MOST_ONCE = 20, 100
 # values of a way at first, and for a turn of the fastest: of an even way with fewer, each next turn could be taken for
 # one backwards; values at most; of the tolerance what outlines and ways may take; of that what ways are brought to,
-# as numbers of a file are rounded; of a loop what is halved no more
-_VALUES, _A_TURN, MOST_VALUES, SHARE, _NEAR, _MOMENT = 60, 4, 16_000, 0.5, 0.9, 1e-7
+# as numbers of a file are rounded; of a loop what is halved no more; of the values as many as let all be halved
+_VALUES, _A_TURN, MOST_VALUES, SHARE, _NEAR, _MOMENT, _MANY = 60, 4, 16_000, 0.5, 0.9, 1e-7, 0.2
 # times at which a file is held against exact poses
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
 
@@ -104,7 +104,8 @@ class Film(Record, FileJob):
             coarse = (off > _NEAR * SHARE * self.tolerance / 2) & (np.diff(shares[::2]) > _MOMENT)
             if not coarse.any() or len(shares) > 2 * most:
                 return shares[::2], found, 2 * float(off.max())
-            halved = np.repeat(coarse, 2)
+            # where many are, all are: even values need no times
+            halved = np.repeat(coarse | (coarse.mean() > _MANY), 2)
             shares = np.sort(np.concatenate([shares, (shares[:-1][halved] + shares[1:][halved]) / 2]))
 
     def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
