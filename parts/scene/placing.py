@@ -42,7 +42,8 @@ class Condition(Record):
 
     ``code`` with unit: "centre_distance" mm, "apex_distance" mm, "shaft_angle" degrees, "phase" (rotation of the
     second) degrees, "fixed_phase" (the same in the first's frame), "placed_phase" (the same by the key of the mate
-    that has placed it), "common_face_width" mm (at least), "train" (turns of the second for one of the first).
+    that has placed it), "held_phase" (of one that teeth have turned), "common_face_width" mm (at least),
+    "train" (turns of the second for one of the first).
     """
 
     code: str
@@ -360,6 +361,8 @@ def _closed(mate: PlacedMate, placer: Mating | None) -> PlacedMate:
         code, turn = ("phase", mate.second.rotation) if asked is None else ("fixed_phase", asked + off)
         if asked is None and typed is not None and mate.second.axis == UPWARDS:
             code, turn = "placed_phase", typed
+        elif asked is None and isinstance(placer, Toothed):
+            code = "held_phase"
         slack = math.degrees(found.play + found.slack(allowed))
         conditions.append(Condition(code, math.degrees(turn), math.degrees(turn - off), slack, met))
     return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from exporters.command.cli import main
 from geometry.base.errors import ParameterError
 from geometry.kinematics.mechanism import Prismatic, Rolling
 from parts.scene.load import make_parts, scene_from_dict
@@ -593,3 +596,60 @@ def test_gears_share_the_thinning_for_a_backlash() -> None:
     assert told.nearest.value is None
     check_limit(pair("external_gear_pair", SPUR | own, WHEEL, normal_backlash=0.2), "mates[1].normal_backlash",
                 "backlash_already_more", 0.1 * COS20, "at_least", near=3e-5)  # fmt: skip
+
+
+BY_HAND = """
+[defaults]
+module = 2.0
+face_width = 8.0
+[parts.sun]
+kind = "spur_gear"
+number_of_teeth = 20
+[parts.satellite]
+kind = "spur_gear"
+number_of_teeth = 30
+[parts.ring]
+kind = "ring_gear"
+number_of_teeth = 80
+[instances.sun]
+[instances.one]
+part = "satellite"
+[instances.two]
+part = "satellite"
+[instances.ring]
+[[mates]]
+kind = "external_gear_pair"
+first = "sun"
+second = "one"
+[[mates]]
+kind = "internal_gear_pair"
+first = "one"
+second = "ring"
+direction_deg = 180.0
+[[mates]]
+kind = "external_gear_pair"
+first = "sun"
+second = "two"
+direction_deg = {direction}
+[[mates]]
+kind = "internal_gear_pair"
+first = "ring"
+second = "two"
+"""
+
+
+@pytest.mark.parametrize(("direction", "goes_in"), [(33 * 3.6, True), (34 * 3.6, True), (120.0, False)])
+def test_a_satellite_that_does_not_go_in_is_offered_no_key_that_its_mate_has_not(
+    direction: float, goes_in: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It goes in at whole parts of a turn, 360 / (20 + 80) degrees; a turn of its own would leave the other mesh."""
+    file = tmp_path / "set.toml"
+    file.write_text(BY_HAND.format(direction=direction))
+    assert main(["check", str(file)]) == (0 if goes_in else 1)
+    said = [line for line in capsys.readouterr().out.splitlines() if line.startswith("BROKEN")]
+    assert len(said) == (not goes_in)
+    for line in said:
+        assert "rotation_deg" not in line
+        stands, fits = map(float, re.findall(r"turned by (\S+) deg and would fit ring at (\S+) deg", line)[0])
+        # a third of a tooth of the set off: by the ring's teeth 120 / 3.6 is no whole number
+        assert math.remainder((stands - fits) * 30 / 360, 1) == pytest.approx(math.remainder(100 / 3, 1), abs=1e-6)
