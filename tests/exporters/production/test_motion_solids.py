@@ -278,6 +278,28 @@ def test_a_film_has_many_values_only_where_they_are_needed(form: str, tmp_path: 
     assert np.diff(most).min() < most[-1] / 10_000
 
 
+TIMES = {
+    "late": (r'keyTimes="0;', 'keyTimes="0.001;', "do not go through its loop"),
+    "back": (r'(keyTimes="0;[\d.]+;)[\d.]+', r"\g<1>0.0000001", "do not go through its loop"),
+    "one less": (r'(keyTimes="0;)[\d.]+;', r"\g<1>", "do not go through its loop"),
+    "another": (r'(keyTimes="(?:[\d.]+;){9})[\d.]+;(0\.\d*?)(\d\d?);', r"\g<1>\g<2>;\g<2>\g<3>;", "off its place"),
+    "no number": (r'(keyTimes="0;)[\d.]+', r"\g<1>x", "a time of a motion is no number"),
+}
+
+
+def test_spoiled_times_are_seen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "r" / of_ratchet(tmp_path, "motion", 0.02)["path"]
+    text = file.read_text(encoding="utf-8")
+    assert run("verify", file) == 0
+    for name, (old, new, said) in TIMES.items():
+        spoiled = re.sub(old, new, text, count=1)
+        assert spoiled != text, name
+        file.write_text(spoiled, encoding="utf-8")
+        capsys.readouterr()
+        assert run("verify", file) == 1, name
+        assert said in capsys.readouterr().out, name
+
+
 def test_a_scene_without_drives_has_no_film() -> None:
     with pytest.raises(SceneError, match="shows what a drive moves"):
         planned(FREE + GLB)
