@@ -19,7 +19,7 @@ def along(corners: Complex, count: int) -> tuple[Real, Complex]:
     ends = np.append(corners, corners[0])
     lengths = np.abs(np.diff(ends))
     told = np.append(0.0, np.cumsum(lengths)) / lengths.sum()
-    pieces = np.maximum(np.ceil(count * lengths / lengths.sum()), 1).astype(int).tolist()
+    pieces = np.ceil(count * lengths / lengths.sum()).astype(int).tolist()
     shares = np.concatenate([
         np.linspace(a, b, n, endpoint=False) for a, b, n in zip(told[:-1], told[1:], pieces, strict=True)
     ])  # fmt: skip

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
@@ -214,7 +215,8 @@ def _number_meant(value: object, kind: object) -> Nearest | None:
         (value,) = value
     if isinstance(value, str):
         value = _number_in(value, _unit(kind))
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    # of integers there is no end
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= sys.float_info.max:
         return None
     number = int(value) if float(value).is_integer() else float(f"{value:.12g}")
     return Nearest(number, "meant") if _fits(number, kind) else None

@@ -17,9 +17,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from exporters.command.cli import main
+from exporters.production.check import scene_checks
 from parts.base.refusal import SceneError
 from parts.cams.disk_cam.part import cam_of
-from parts.scene.load import load_scene, scene_from_dict
+from parts.scene.load import load_scene, make_parts, resolved, scene_from_dict
+from parts.scene.placing import place
 from tests.sampling import examples
 
 # a house with sharp corners and one chimney, the roof's tip first
@@ -123,6 +125,54 @@ def test_the_cams_of_the_files_draw_the_picture(keys: dict[str, Any], tmp_path: 
     assert max(told["picture_error"], told["corner_cut"]) == pytest.approx(apart(drawn, engraved[:-1]), abs=0.02)
 
 
+@pytest.mark.parametrize("start", [1, 4])
+def test_backwards_the_pen_begins_at_the_same_corner(start: int) -> None:
+    """And goes through the same places at the same distance from there, the other way round."""
+    ways = []
+    for backwards in (False, True):
+        parts = scene_from_dict(scene(start_point=start, backwards=backwards), "s.toml", "s").parts
+        tables = (np.array(parts[name].motion_table) for name in ("cam_x", "cam_y"))
+        ways.append([np.interp(np.arange(0, 360, 5), *table.T, period=360) for table in tables])
+    for one, other in zip(*ways, strict=True):
+        assert np.abs(one - np.roll(other[::-1], 1)).max() < 1e-6
+
+
+def test_a_line_that_is_missed_is_told_either_way(tmp_path: Path) -> None:
+    """By the mate on its own two cams: nearer or farther than they come, and with a spike that the pen leaves out."""
+    tables = resolved(load_scene(str(written(tmp_path, picture=HOUSE))))
+    (own,) = [mate for mate in tables["mates"] if mate["kind"] == "drawing_cams"]
+    cams = {name: tables["parts"][name] for name in ("cam_x", "cam_y")}
+
+    def told(line: list[list[float]], tolerance: float) -> tuple[dict[str, Any], list[str]]:
+        raw = {"parts": cams, "mates": [{**own, "line": line, "tolerance": tolerance}]}
+        made = scene_from_dict(raw, "t", "t")
+        parts, matings = make_parts(made, "t")
+        placing = place(made.instances, made.drives, parts, matings, "t")
+        (mate,) = scene_checks(placing, parts, made.drives, "en", contact=False)["mates"]
+        return mate, [one["code"] for one in mate.get("findings", ())]
+
+    mate, codes = told(own["line"], 5.0)
+    off = max(mate["picture_error"], mate["corner_cut"])
+    assert codes == []
+    assert told(own["line"], 1.01 * off)[1] == []
+    assert told(own["line"], 0.8 * off)[1] == ["picture_missed"]
+    (x, y), *others = own["line"]
+    spiked, codes = told([[x, y], [x + 30.0, y + 40.0], [x, y], *others], 5.0)
+    assert spiked["picture_error"] <= off + 1e-6
+    assert spiked["corner_cut"] == pytest.approx(50.0, abs=10.0)
+    assert codes == ["picture_missed"]
+
+
+def test_cams_with_a_swinging_follower_draw_nothing() -> None:
+    phases = [{"move": move, "angle_deg": 180.0, "law": "sine"} for move in ("rise", "return")]
+    swings = {"kind": "cam", "swing_deg": 15.0, "base_circle_radius": 30.0, "follower_radius": 8.0, "phases": phases,
+              "follower": "roller", "oscillating": {"centre_distance": 90.0, "arm_length": 80.0}}  # fmt: skip
+    mate = {"kind": "drawing_cams", "first": "a", "second": "b", "line": HOUSE}
+    with pytest.raises(SceneError) as found:
+        make_parts(scene_from_dict({"parts": {"a": swings, "b": swings}, "mates": [mate]}, "t", "t"), "t")
+    assert (found.value.key, found.value.code) == ("mates[1].first", "draws_by_sliding")
+
+
 def test_it_goes_together_and_round(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = written(tmp_path, picture=HOUSE)
     file.write_text(file.read_text("utf-8") + "[checks]\ninterference = true\n", encoding="utf-8")
@@ -131,6 +181,18 @@ def test_it_goes_together_and_round(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert "each part reaches its place straight" in said
     assert said.count("CONTACT, least gap") == 2
     assert re.search(r"solids in motion: \d+ pairs over the period of each", said)
+
+
+@pytest.mark.parametrize("keys", [
+    {"size": 10.0, "smoothing": 1.0}, {"size": 20.0, "smoothing": 0.05, "follower_radius": 15.0},
+], ids=["room about the shaft", "curvature"])  # fmt: skip
+def test_where_the_pressure_angle_asks_for_small_cams_something_else_keeps_them_large(
+    keys: dict[str, Any], tmp_path: Path
+) -> None:
+    """Small pictures, whose slides are kept off the shaft, and sharp ones under a large roller, that would undercut."""
+    file = written(tmp_path, picture=HOUSE, greatest_pressure_angle_deg=60.0, **keys)
+    file.write_text(file.read_text("utf-8") + "[checks]\ninterference = true\n", encoding="utf-8")
+    assert main(["check", str(file)]) == 0
 
 
 def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

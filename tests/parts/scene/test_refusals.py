@@ -812,6 +812,13 @@ def test_a_kind_of_other_tables_is_told_where_it_belongs(tables: dict[str, Any],
     assert refused.value.key == key
 
 
+@pytest.mark.parametrize("key", ["hand", "module", "tip_relief", "face_width", "number_of_teeth"])
+@pytest.mark.parametrize("value", ["1" + "0" * 400, '"1' + "0" * 400 + ' mm"', "inf", "nan"])
+def test_a_number_beyond_all_is_refused_by_its_key(key: str, value: str) -> None:
+    """Of a type that the key does not take it ended in a traceback."""
+    assert refusal(scene_text({key: value})).key == f"parts.gear.{key}"
+
+
 @pytest.mark.parametrize("kind", [["chain_drive"], {"chain_drive": 1}, 3])
 def test_a_kind_that_is_no_text_is_unknown(kind: object) -> None:
     with pytest.raises(SceneError, match="unknown kind") as refused:
