@@ -19,6 +19,8 @@ MOST_BYTES = 1_000_000
 # chords of a curve at most; ends of a line that are one, of its size
 _CHORDS, _SAME = 32, 1e-6
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+# a length with a unit; a share is of what nobody knows
+_SIZE = re.compile(rf"\s*({_NUMBER.pattern})\s*([a-z]*)\s*")
 # numbers behind each letter
 _TAKES = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 _TRANSFORM = re.compile(r"\s*,?\s*(\w+)\s*\(([^)]*)\)")
@@ -85,15 +87,27 @@ def _tag(element: ElementTree.Element) -> str:
 
 def _shown(element: ElementTree.Element, placed: _Map) -> Iterator[tuple[ElementTree.Element, _Map]]:
     """What is drawn, each with how it is placed."""
-    hidden = element.get("display") == "none" or re.search(r"display\s*:\s*none", element.get("style", ""))
+    style = {key.strip(): told for key, _, told in (one.partition(":") for one in element.get("style", "").split(";"))}
+    hidden = "none" in (element.get("display"), style.get("display", "").strip())
     if hidden or _tag(element) in _ASIDE:
         return
     a, b, c = placed
-    for p, q, r in _maps(element.get("transform", "")):
+    # what a style says goes before an attribute
+    for p, q, r in _maps(style.get("transform", element.get("transform", "")) + _stretch(element)):
         a, b, c = a * p + b * q.conjugate(), a * q + b * p.conjugate(), a * r + b * r.conjugate() + c
     yield element, (a, b, c)
     for child in element:
         yield from _shown(child, (a, b, c))
+
+
+def _stretch(element: ElementTree.Element) -> str:
+    """The transform of a view box that fills its frame both ways; every other one keeps the picture's proportions."""
+    box = [float(number) for number in _NUMBER.findall(element.get("viewBox", ""))]
+    frame = [_SIZE.fullmatch(element.get(key, "")) for key in ("width", "height")]
+    if not element.get("preserveAspectRatio", "").strip().startswith("none") or len(box) != 4 or not all(box[2:]):
+        return ""
+    (width, unit), (height, other) = (found.groups() if found else ("", "?") for found in frame)
+    return f" scale({float(width) / box[2]} {float(height) / box[3]})" if unit == other != "?" else ""
 
 
 def _maps(text: str) -> Iterator[_Map]:

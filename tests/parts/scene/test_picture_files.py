@@ -147,3 +147,28 @@ def test_what_is_no_picture_is_refused(raw: bytes, code: str) -> None:
     with pytest.raises(ParameterError) as found:
         picture_of(raw, "a.svg")
     assert (found.value.name, found.value.value, found.value.code) == ("file", "a.svg", code)
+
+
+@pytest.mark.parametrize(
+    "style", ["transform:rotate(90deg) scale(2)", "fill:none; transform : rotate(90) scale(2,2) ;"]
+)
+def test_a_style_moves_as_an_attribute_does_and_before_it(style: str) -> None:
+    assert path("M0 0H4V3H0z", f' style="{style}" transform="skewX(9)"') == pytest.approx(2j * np.array(SQUARE))
+
+
+@pytest.mark.parametrize(
+    ("frame", "wide"),
+    [
+        (' width="18mm" height="9mm" preserveAspectRatio="none"', 2.0),
+        (' width="18" height="9" preserveAspectRatio=" none meet"', 2.0),
+        (' width="18mm" height="9mm"', 1.0),
+        (' width="18mm" height="9mm" preserveAspectRatio="xMinYMax slice"', 1.0),
+        # nobody knows of what
+        (' width="200%" height="100%" preserveAspectRatio="none"', 1.0),
+    ],
+)
+def test_a_picture_that_fills_its_frame_both_ways_is_stretched(frame: str, wide: float) -> None:
+    """Browsers draw a square of the view box twice as wide in a frame twice as wide."""
+    found = corners('<path d="M0 0H4V3H0z"/>', frame)
+    extent = [np.ptp(found.real), np.ptp(found.imag)]
+    assert extent[0] / extent[1] == pytest.approx(wide * 4 / 3)
