@@ -42,7 +42,7 @@ class Condition(Record):
 
     ``code`` with unit: "centre_distance" mm, "apex_distance" mm, "shaft_angle" degrees, "phase" (rotation of the
     second) degrees, "fixed_phase" (the same in the first's frame), "placed_phase" (the same by the key of the mate
-    that has placed it), "held_phase" (of one that teeth have turned), "common_face_width" mm (at least),
+    that has placed it), "held_phase" (of one that other mates hold), "common_face_width" mm (at least),
     "train" (turns of the second for one of the first).
     """
 
@@ -147,8 +147,7 @@ def place(
     stand = placed.stand
     placers = {m.mating.second: m.mating for m in mates if not m.only_checks}
     mates = tuple(
-        _closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second]), placers.get(m.mating.second))
-        for m in mates
+        _closed(replace(m, first=stand[m.mating.first], second=stand[m.mating.second]), placers) for m in mates
     )
     mates = _with_faces_and_speeds(mates, parts)
     instances = tuple(replace(stand[i], subassembly=spec.subassembly) for i, spec in specs.items())
@@ -329,10 +328,17 @@ def _reach(part: Part) -> float:
     return part.section(0.0).region.outer.reach()
 
 
-def _closed(mate: PlacedMate, placer: Mating | None) -> PlacedMate:
+def _hangs(one: str, other: str, placers: dict[str, Mating]) -> bool:
+    """Whether mates have placed one instance from another on."""
+    while (mating := placers.get(one)) is not None and one != other:
+        one = mating.first
+    return one == other
+
+
+def _closed(mate: PlacedMate, placers: dict[str, Mating]) -> PlacedMate:
     """A mate between two instances that stood before it: centre distance and phase, with the numbers.
 
-    ``placer``: the mate that has placed the second.
+    ``placers``: the mates that have placed instances, by these.
     """
     if not mate.only_checks:
         return mate
@@ -357,11 +363,12 @@ def _closed(mate: PlacedMate, placer: Mating | None) -> PlacedMate:
         conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
     else:
         # where a key of the mate turns the second, or of the mate that has placed it, that key is what makes it fit
-        asked, typed = mate.mating.asked_turn, None if placer is None else placer.placed_turn
+        asked, placer = mate.mating.asked_turn, placers.get(mate.mating.second)
+        typed = None if placer is None else placer.placed_turn
         code, turn = ("phase", mate.second.rotation) if asked is None else ("fixed_phase", asked + off)
         if asked is None and typed is not None and mate.second.axis == UPWARDS:
             code, turn = "placed_phase", typed
-        elif asked is None and isinstance(placer, Toothed):
+        elif asked is None and (isinstance(placer, Toothed) or _hangs(mate.mating.first, mate.mating.second, placers)):
             code = "held_phase"
         slack = math.degrees(found.play + found.slack(allowed))
         conditions.append(Condition(code, math.degrees(turn), math.degrees(turn - off), slack, met))

@@ -653,3 +653,31 @@ def test_a_satellite_that_does_not_go_in_is_offered_no_key_that_its_mate_has_not
         stands, fits = map(float, re.findall(r"turned by (\S+) deg and would fit ring at (\S+) deg", line)[0])
         # a third of a tooth of the set off: by the ring's teeth 120 / 3.6 is no whole number
         assert math.remainder((stands - fits) * 30 / 360, 1) == pytest.approx(math.remainder(100 / 3, 1), abs=1e-6)
+
+
+@pytest.mark.parametrize(("direction", "fits"), [(90.0, True), (91.0, False)])
+@pytest.mark.parametrize("turned", [0.0, 5.0])
+def test_a_ring_of_gears_that_does_not_close_is_offered_no_turn_of_the_first(
+    direction: float, fits: bool, turned: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Four gears in a rhombus hang on the first: a turn of it leaves the last mesh as far off as before."""
+    names = "abcd"
+    ways = (0.0, direction, 180.0)
+    pairs = [
+        f'[[mates]]\nkind = "external_gear_pair"\nfirst = "{one}"\nsecond = "{two}"\n'
+        + (f"direction_deg = {way}\n" if way is not None else "")
+        for one, two, way in zip(names, "bcda", (*ways, None), strict=True)
+    ]
+    text = '[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 21\nface_width = 8.0\n'
+    text += "".join(
+        f'[instances.{name}]\npart = "g"\n' + f"rotation_deg = {turned}\n" * (name == "a") for name in names
+    )
+    file = tmp_path / "ring.toml"
+    file.write_text(text + "".join(pairs))
+    assert main(["check", str(file)]) == (0 if fits else 1)
+    said = [line for line in capsys.readouterr().out.splitlines() if line.startswith("BROKEN")]
+    assert len(said) == (not fits)
+    for line in said:
+        assert "rotation_deg" not in line
+        stands, would = map(float, re.findall(r"turned by (\S+) deg and would fit d at (\S+) deg", line)[0])
+        assert (stands, would - stands) == (pytest.approx(turned), pytest.approx(4.0))
