@@ -92,6 +92,16 @@ def test_a_wheel_that_a_pawl_holds_does_not_turn_back() -> None:
         assert checks["mates"][0]["turn_back_deg"] == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.parametrize(("share", "told"), [(0.45, False), (0.55, True), (0.9, True)])
+def test_a_drive_may_turn_a_wheel_back_as_far_as_the_pawl_lets_it(share: float, told: bool) -> None:
+    """Midway between two teeth it is free for half a pitch."""
+    _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": 9.5}], drives=[{"instance": "wheel", "turns": -share / 16}])
+    found = [one for one in checks["mates"][0]["findings"] if one["code"] == "turns_against_pawl"]
+    assert [(one["value"], one["limit"]) for one in found] == (
+        [(pytest.approx(share * 22.5), pytest.approx(11.25))] if told else []
+    )
+
+
 # with what a pawl touches the wheel: the turn, rad, at which it does
 TOUCHING: dict[str, tuple[Keys, Keys, float]] = {
     "nose and face": (WHEEL | {"number_of_teeth": 12, "front_angle_deg": 0.26, "notch_angle_deg": 49.5,
