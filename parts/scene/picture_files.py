@@ -67,11 +67,11 @@ def picture_of(raw: bytes, name: str) -> list[list[float]]:
         code = "picture_of_several_lines" if lines or others else "no_line_in_picture"
         raise ParameterError("file", name, code)
     ((points, closed),) = lines
-    size = max(abs(z - points[0]) for z in points)
-    points = [z for k, z in enumerate(points) if k == 0 or abs(z - points[k - 1]) > _SAME * size]
-    if closed or abs(points[-1] - points[0]) <= _SAME * size:
-        points = points[:-1] if abs(points[-1] - points[0]) <= _SAME * size else points
-    else:
+    size = max(_apart(z, points[0]) for z in points)
+    points = [z for k, z in enumerate(points) if k == 0 or _apart(z, points[k - 1]) > _SAME * size]
+    if _apart(points[-1], points[0]) <= _SAME * size:
+        points = points[:-1]
+    elif not closed:
         # there and back
         points += points[-2:0:-1]
     if not 3 <= len(points) <= MOST_POINTS:
@@ -79,6 +79,11 @@ def picture_of(raw: bytes, name: str) -> list[list[float]]:
         raise ParameterError("file", name, code, None, number=len(points), most=MOST_POINTS)
     # y downwards there
     return [[round(z.real, 6) + 0.0, round(-z.imag, 6) + 0.0] for z in points]
+
+
+def _apart(one: complex, other: complex) -> float:
+    """The distance of two places; what is beyond all numbers is infinite."""
+    return math.hypot(other.real - one.real, other.imag - one.imag)
 
 
 def _tag(element: ElementTree.Element) -> str:

@@ -358,8 +358,10 @@ def test_a_poor_part_is_told_whatever_file_it_is_in(
         ('pressure_angle_deg = "22\u00b030\'"', "; did you mean 22.5?"),
         ("pressure_angle_deg = 22\u00b030'", "line 4: numbers stand without units, lengths in mm, angles in degrees: "
                                            "pressure_angle_deg = 22.5"),
-        ("pressure_angle_deg = 22\u00b030'36\"", "line 4: numbers stand without units, lengths in mm, angles in degrees:"
-                                                " pressure_angle_deg = 22.51"),
+        ("pressure_angle_deg = 22\u00b030'36\"", "line 4: numbers stand without units, lengths in mm, angles in "
+                                                "degrees: pressure_angle_deg = 22.51"),
+        ('module = "1/0 mm"', "at most 1000 mm"),
+        ("power = 2 kW", "line 4: numbers stand without units: power = 2000"),
         ("module = 2,5 mm", "line 4: numbers stand without units: module = 2.5"),
         ("module = 1/8 in", "line 4: numbers stand without units, lengths in mm, angles in degrees: module = 3.175"),
         ("module = [2.5]", "; did you mean 2.5?"),

@@ -140,6 +140,9 @@ def test_many_curves_have_fewer_chords(curves: int) -> None:
     (b'<svg><path d="M0 0A1 1 0 2 0 4 4"/></svg>', "no_path_data"),
     (b'<svg><path d="M0 0L1e999 0L3 3z"/></svg>', "no_path_data"),
     (b'<svg><path d="M0 0L4, ,x"/></svg>', "no_path_data"),
+    # beyond all numbers: it ended in a traceback
+    (b'<svg><path transform="scale(1e308)" d="M0 0L4 0L3 3z"/></svg>', "no_line_in_picture"),
+    (b'<svg><polygon points="0 0 1.7e308 1.7e308 3 -1.7e308"/></svg>', "no_line_in_picture"),
     (b'<svg><polygon points="' + b"0 0 9 9 5 5 " * 600 + b'"/></svg>', "picture_of_many_corners"),
     (b" " * (MOST_BYTES + 1), "too_large_step"),
 ])  # fmt: skip
