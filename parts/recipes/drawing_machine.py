@@ -166,6 +166,8 @@ class _Making(Making):
         steep = math.radians(keys.greatest_pressure_angle_deg)
         convex = max(keys.least_curvature_radius, r / USUAL_ROLLER_SHARE - r)
         room = max(self.half + max(self.ring, keys.axle_diameter / 2 + _WALL), r + keys.pen_diameter / 2)
+        # the key goes through both cams between the shaft and their base circles
+        room = max(room, r + keys.axle_diameter / 2 + keys.guide_pin_diameter + 2 * _RIM - _APART)
         pressure = max(roller_prime_radius(motion, 0.0, steep, steep) for motion in motions)
         try:
             curved = r + max(convex_roller_base_radius(motion, r, convex) for motion in motions)
@@ -199,7 +201,8 @@ class _Making(Making):
                       for pins, x, low in zip(self.pins, far, self.low, strict=True)]  # fmt: skip
         self.pegs = [math.ceil(end + self.slot / 2 + keys.guide_pin_diameter / 2 + _WALL) for _, end in self.slots]
         pen = keys.pen_diameter / 2
-        self.pen = float(math.ceil(max(far[0] - self.half + _ABOUT, self.reach + pen + 2 * _APART)))
+        left = max(self.high[0] + _ABOUT, float(self.line.real.max()) + _WALL)
+        self.pen = float(math.ceil(max(self.prime + left - self.half, self.reach + pen + 2 * _APART)))
         ends = self._crank_end()
         most = math.hypot(self.pen, self.prime + self.low[1]) - pen - _APART - ends
         usual = min(_CRANK_LENGTH, float(math.floor(most)))
@@ -284,8 +287,11 @@ class _Making(Making):
 
     def _table(self) -> tuple[float, float]:
         """How far the table reaches to the right and upwards from its roller's centre, mm."""
-        right = max(self.pegs[0] + self.half, self.pen - self.prime - self.low[0] + _ABOUT)
-        return float(math.ceil(right)), float(math.ceil(self.prime + self.high[1] + _ABOUT))
+        # corners of the picture may stand farther off than the line that is drawn
+        wide = max(_ABOUT - self.low[0], _WALL - float(self.line.real.min()))
+        high = max(self.high[1] + _ABOUT, float(self.line.imag.max()) + _WALL)
+        right = max(self.pegs[0] + self.half, self.pen - self.prime + wide)
+        return float(math.ceil(right)), float(math.ceil(self.prime + high))
 
     def _slide(self, name: str, slide: str, layer: int, way: int, direction: float) -> None:
         """A roller in the layer of its cam, and what it moves, two layers below or above it."""

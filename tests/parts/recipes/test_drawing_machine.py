@@ -195,6 +195,20 @@ def test_where_the_pressure_angle_asks_for_small_cams_something_else_keeps_them_
     assert main(["check", str(file)]) == 0
 
 
+ZIGZAG = [[4.1, 5.5], [4.3, -6.1], [2.4, -4.2], [-4.1, -4.4], [-8.8, -6.8], [3.1, 5.3], [-7.1, 8.0], [-0.6, 5.1],
+          [-8.3, -7.6], [5.7, -7.3], [-8.3, 2.8], [-8.2, -1.5]]  # fmt: skip
+
+
+@pytest.mark.parametrize("keys", [
+    {"picture": ZIGZAG, "smoothing": 20.0, "follower_radius": 30.0},
+    {"picture": [[-8.3, -6.4], [8.7, -2.7], [5.4, 8.5], [6.4, 5.3]], "size": 5.0, "greatest_pressure_angle_deg": 60.0,
+     "follower_radius": 10.0, "axle_diameter": 28.1},
+], ids=["a picture far from its line", "a thick shaft"])  # fmt: skip
+def test_table_and_cams_have_room_for_picture_and_key(keys: dict[str, Any]) -> None:
+    """They were refused in keys of parts that nobody had typed: the table's strokes, the cams' holes."""
+    make_parts(scene_from_dict(scene(**keys), "s.toml", "s"), "s.toml")
+
+
 def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Negative control: the second cam stands a quarter ahead, or is told off; another picture is missed."""
     made = written(tmp_path, picture=HOUSE)
