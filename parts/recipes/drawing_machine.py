@@ -101,6 +101,9 @@ class _Making(Making):
         holes = max(self.slot, keys.roller_pin_diameter, keys.pen_diameter)
         if keys.slide_width < (least := holes + 2 * _WALL):
             raise ParameterError.beyond("slide_width", keys.slide_width, "no_wall_beside_holes", least)
+        # the spacers about both pins of a slide stand beside each other
+        if keys.guide_pin_spacing < (least := 2 * self.ring + _APART):
+            raise ParameterError.beyond("guide_pin_spacing", keys.guide_pin_spacing, "no_wall_beside_holes", least)
         self.line = self._line()
         self.cams = self._cams()
         self._lay_out()

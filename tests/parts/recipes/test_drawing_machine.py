@@ -234,6 +234,7 @@ def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.Captu
     ({"slide_width": 10.0}, "no_wall_beside_holes", "slide_width"),
     ({"roller_pin_diameter": 9.9}, "no_wall_beside_holes", "follower_radius"),
     ({"clearance": 2.0}, "pins_lie_loose", "clearance"),
+    ({"guide_pin_spacing": 5.0}, "no_wall_beside_holes", "guide_pin_spacing"),
 ])  # fmt: skip
 def test_what_cannot_be_is_refused_with_what_works(keys: dict[str, Any], code: str, key: str) -> None:
     with pytest.raises(SceneError) as found:
