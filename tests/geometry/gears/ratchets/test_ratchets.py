@@ -96,6 +96,16 @@ def test_the_back_and_the_face_make_the_notch_angle() -> None:
         assert abs(cmath.phase(back / face)) == pytest.approx(wheel.notch_angle)
 
 
+def test_a_tooth_is_as_thick_as_its_roots_stand_apart() -> None:
+    """From the end of one arc of the root circle to the start of the next one, along the outline."""
+    wheel = WHEELS["root land"]
+    lands = [e for e in wheel.outline() if isinstance(e, Arc) and e.centre == 0 and e.radius < wheel.tip_radius - 1]
+    one, two = lands[:2]
+    gap = abs(complex(two.point(two.domain[0])) - complex(one.point(one.domain[1])))
+    assert len(lands) == wheel.number_of_teeth
+    assert wheel.root_thickness == pytest.approx(gap, rel=1e-9)
+
+
 def ridden(pawl: PawlShape, turn: float) -> tuple[float, float]:
     """By bisection of polygons: where the pawl comes to rest from above, and how deep it overlaps a little lower."""
     fixed = affinity.rotate(wheel_polygon(pawl.wheel), turn, (0, 0), use_radians=True)
