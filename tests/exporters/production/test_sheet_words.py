@@ -110,7 +110,10 @@ def sheets_of(name: str, language: str, **export: Any) -> Any:
     scene = load_scene(name)
     scene.scene.language = language
     sheets = [e for e in scene.exports if e.format == "sheet" or (e.format == "pdf" and e.purpose != "model")]
-    scene.exports = [msgspec.structs.replace(e, **{"format": "sheet", "tolerance": 1e-2, **export}) for e in sheets]
+    # drawings of parts and assemblies are SVGs alone
+    forms = ["svg" if e.purpose in ("part", "assembly") else "sheet" for e in sheets]
+    scene.exports = [msgspec.structs.replace(e, **{"format": form, "tolerance": 1e-2, **export})
+                     for e, form in zip(sheets, forms, strict=True)]  # fmt: skip
     return [job for job in plan_build(scene, name, [], []).sheets if job.path.endswith(".svg")]
 
 
