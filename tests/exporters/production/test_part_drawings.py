@@ -615,6 +615,7 @@ def test_equal_holes_are_told_circle_by_circle_and_a_collar_is_seen_on_the_face(
     assert any("4 on the circle Ø50: " in text.dxf.text for text in space.query("TEXT"))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("steps", [17, 20])
 def test_each_step_of_a_long_shaft_has_its_size_with_its_zone(tmp_path: Path, steps: int) -> None:
     """Lengths from the end, diameters with h11: of more than fifteen steps a table had them, without their zones."""

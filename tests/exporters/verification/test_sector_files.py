@@ -60,6 +60,7 @@ def outline(name: str, offset: float = 0.0) -> Any:
     return expected(made).buffer(offset, quad_segs=100)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", SECTORS)
 def test_files_hold_the_wedge_of_the_gear(folder: Path, name: str) -> None:
     """Cut outlines, one moved by half of the kerf; the mesh's volume."""

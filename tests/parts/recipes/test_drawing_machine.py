@@ -183,6 +183,7 @@ def test_it_goes_together_and_round(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert re.search(r"solids in motion: \d+ pairs over the period of each", said)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("keys", [
     {"size": 10.0, "smoothing": 1.0}, {"size": 20.0, "smoothing": 0.05, "follower_radius": 15.0},
 ], ids=["room about the shaft", "curvature"])  # fmt: skip
@@ -222,6 +223,7 @@ def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.Captu
     assert "Cam of the table stands turned off Cam of the pen" in capsys.readouterr().out
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("keys", "code", "key"), [
     ({"picture": [[0, 0], [10, 0], [20, 0]]}, "picture_is_flat", "picture"),
     ({"picture": [[1, 1], [1, 1], [1, 1]]}, "picture_is_flat", "picture"),

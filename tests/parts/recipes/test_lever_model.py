@@ -230,6 +230,7 @@ def overlaps(folder: Path, name: str, count: int, **other: float) -> dict[tuple[
     return found
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["six", "slotted", "crank_slider", pytest.param("bent", marks=pytest.mark.heavy)])
 def test_nothing_meets_over_a_turn(name: str, made: Callable[[str], Path]) -> None:
     """By the solids of the files and poses of our own; and the frame of another mechanism is met by the pins."""
@@ -298,6 +299,7 @@ def test_check_finds_it_clear(
     assert "OVERLAP" in "".join(capsys.readouterr())
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("clearance", [0.0, 0.3])
 @pytest.mark.parametrize("name", ["slotted", "crank_slider"])
 def test_a_pin_is_followed_along_its_slot(

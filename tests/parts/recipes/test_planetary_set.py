@@ -578,6 +578,7 @@ def held(made: SceneFile) -> dict[str, Any]:
     return order_checks(made.steps, placing, parts, "en")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("made", "steps"),
     [

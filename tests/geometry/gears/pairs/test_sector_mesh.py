@@ -107,6 +107,7 @@ def test_a_driven_sector_touches_over_as_much() -> None:
     assert min(off(low - _PAST, way), off(high + _PAST, way)) > 5 * _TOUCH
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("of_ring", [True, False])
 def test_sectors_inside_a_ring(of_ring: bool) -> None:
     kept = Sector(8, centred(8, -1 if of_ring else 1))
@@ -148,6 +149,7 @@ def test_a_sector_on_a_rack_moves_it_by_its_arc() -> None:
 _ODD = (Case(60, 9, 12, runs=3, x1=0.323, x2=-0.068), Case(32, 3, 9, runs=2, x1=0.377, x2=-0.071))
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("case", [*_CASES, *_ODD])
 @pytest.mark.parametrize("way", [1, -1])
 def test_a_mate_that_is_moved_step_by_step_is_always_clear_and_always_pushed(case: Case, way: int) -> None:
@@ -175,6 +177,7 @@ def test_a_mate_that_is_moved_step_by_step_is_always_clear_and_always_pushed(cas
     assert steps.moved == case.n - 1 + steps.ahead
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("case", "jams"), [(Case(24, 5, 20), True), (Case(40, 9, 15), True), (Case(30, 7, 30), False)])
 def test_a_first_tooth_that_jams_meets_a_tip_from_outside(case: Case, jams: bool) -> None:
     """A negative margin: as the tips of the first tooth arrive, they stand on a tip land of the standing mate."""
