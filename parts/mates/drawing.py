@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -34,7 +35,7 @@ class DrawingCamsSpec(MateKeys, tag="drawing_cams", kw_only=True):
     tolerance: Annotated[float, _TOLERANCE] | None = None
 
 
-class DrawingCamsMating(Mating):
+class DrawingCamsMating(Mating, dict=True):
     """Both cams turn together, at one cam angle: the second a quarter of a turn ahead, as its follower is."""
 
     along_x: DiskCam
@@ -57,9 +58,10 @@ class DrawingCamsMating(Mating):
         """Whether one line leaves the other by more than it may."""
         if self.tolerance is None:
             return ()
-        worst = max(self._off())
+        worst = max(self._off)
         return (Finding("picture_missed", worst, self.tolerance),) if worst > self.tolerance + _ROUNDING else ()
 
+    @cached_property
     def _off(self) -> tuple[float, float]:
         """The greatest distance of what is drawn from the picture, and of the picture from what is drawn, mm."""
         import numpy as np
@@ -76,7 +78,7 @@ class DrawingCamsMating(Mating):
 
         from geometry.cams.picture import drawn
 
-        off, cut = self._off()
+        off, cut = self._off
         angles = np.linspace(0, 2 * math.pi, _PLACES, endpoint=False)
         fastest, hardest = (
             float(np.abs(drawn(self.along_x.motion, self.along_y.motion, angles, order)).max()) for order in (1, 2)

@@ -35,7 +35,7 @@ def put(parts: dict[str, Keys], key: str, value: Any) -> dict[str, Keys]:
         held.pop(last, None)
     else:
         held[last] = value
-    return made  # type: ignore[no-any-return]
+    return made
 
 
 def cured(parts: dict[str, Keys], refusal: SceneError) -> dict[str, Keys]:

@@ -29,7 +29,7 @@ from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
 from tests.exporters.making import dxf_chains, read_report, run, write_scene
 from tests.geometry.cams.oracle import MP, Eccentric, followed
-from tests.parts.cams.disk_cam.test_cam import CAMS, part_of, scene_text
+from tests.parts.cams.disk_cam.test_cam import CAMS, cam_of, part_of, scene_text
 
 TAIL = "".join(f'[[exports]]\nformat = "{f}"\n' for f in ("svg", "stl", "3mf")) + (
     '[[exports]]\nformat = "dxf"\npurpose = "drawing"\n[[exports]]\nformat = "dxf"\nkerf = 0.2\nname = "cut"\n'
@@ -58,10 +58,10 @@ def dense(file: Path) -> np.ndarray:
 def test_an_eccentric_disk_lifts_as_its_triangle_says(kind: FollowerKind, swings: bool) -> None:
     """The lift over a circle in closed form, at 40 digits; the law of the cam does not enter the rolling."""
     radius = 6.0 if kind in (FollowerKind.ROLLER, FollowerKind.MUSHROOM) else 0.0
-    motion = part_of(CAMS["roller"]).thing.motion  # type: ignore[union-attr]
+    motion = cam_of(CAMS["roller"]).motion
     if swings:
         arm = 0.0 if kind is FollowerKind.FLAT else 70.0
-        motion = part_of(CAMS["oscillating roller"]).thing.motion  # type: ignore[union-attr]
+        motion = cam_of(CAMS["oscillating roller"]).motion
         cam = oscillating_cam(motion, kind, 35.0, centre_distance=90.0, arm_length=arm, radius=radius, sense=-1)
     else:
         cam = translating_cam(motion, kind, 35.0, radius=radius, follower_offset=4.0)

@@ -29,7 +29,7 @@ class Eccentric:
     size: float
     arm: float
 
-    def lift(self, kind: FollowerKind, mount: Mount, radius: float, angle):  # type: ignore[no-untyped-def]
+    def lift(self, kind: FollowerKind, mount: Mount, radius: float, angle):
         """Height or swing angle of the follower at a cam angle, mpmath."""
         centre = self.arm * MP.expj(angle)
         reach = MP.mpf(self.size) + MP.mpf(radius)
@@ -63,7 +63,7 @@ class RiddenPiece:
 
     @cached_property
     def _table(self) -> dict[float, list[float]]:
-        def function(angle):  # type: ignore[no-untyped-def]
+        def function(angle):
             return self.disk.lift(self.kind, self.mount, self.radius, angle)
 
         zero = function(MP.mpf(0))
@@ -73,12 +73,12 @@ class RiddenPiece:
             found[node] = [float(function(MP.mpf(node)) - zero), *values]
         return found
 
-    def value(self, t, order: int = 0):  # type: ignore[no-untyped-def]
+    def value(self, t, order: int = 0):
         """S^(order) at nodes."""
         t = np.asarray(t, dtype=float)
         return np.array([self._table[float(x)][order] for x in t.ravel()]).reshape(t.shape)
 
-    def values(self, t, order: int):  # type: ignore[no-untyped-def]
+    def values(self, t, order: int):
         """S, S' ... S^(order) at nodes."""
         return [self.value(t, k) for k in range(order + 1)]
 

@@ -88,10 +88,10 @@ def test_the_tangent_cam_has_the_textbooks_formulas(radius: float) -> None:
     law, change = roller_law(shape, radius), shape.change(radius)
     d, reach, alpha = MP.mpf(shape.centre_distance), MP.mpf(shape.nose_radius) + radius, MP.mpf(shape.rise_angle)
 
-    def flank(t):  # type: ignore[no-untyped-def]
+    def flank(t):
         return (30 + radius) * (1 / MP.cos(t) - 1)
 
-    def nose(t):  # type: ignore[no-untyped-def]
+    def nose(t):
         return d * MP.cos(alpha - t) + MP.sqrt(reach**2 - (d * MP.sin(alpha - t)) ** 2) - 30 - radius
 
     for theta in np.linspace(1e-3, shape.rise_angle - 1e-3, 31).tolist():

@@ -57,7 +57,7 @@ def test_what_is_measured_goes_with_the_teeth(
     asked = [0]
     point = Line.point
 
-    def counted(self: Line, t):  # type: ignore[no-untyped-def]
+    def counted(self: Line, t):
         asked[0] += np.size(t)
         return point(self, t)
 

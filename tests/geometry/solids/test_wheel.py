@@ -60,7 +60,7 @@ def checked(shape: WheelShape, holes: HubHoles, offset: float = 0.0) -> Body:
     return wheel(shape, holes, offset)
 
 
-def judged(body, tolerance: float = 0.002):  # type: ignore[no-untyped-def]
+def judged(body, tolerance: float = 0.002):
     """The mesh of a body as trimesh has it, sound in every respect."""
     import trimesh
 

@@ -370,7 +370,7 @@ def test_a_face_whose_bounds_end_beyond_its_spline_is_taken_over(
 
     kernel: Any = OCP.BRepTools.BRepTools
 
-    class Wide(kernel):  # type: ignore[misc]
+    class Wide(kernel):
         """Bounds that begin too early."""
 
         @staticmethod

@@ -52,7 +52,7 @@ def test_a_shape_in_three_places_lies_in_each() -> None:
         for end, angle in ((back[0], 0.2), (back[-1], 2.1)):
             assert abs(end - complex(long * math.cos(angle), short * math.sin(angle))) < 1e-12
         # the same fit: its knots
-        assert spline.knots is found[0].knots  # type: ignore[union-attr]
+        assert spline.knots is found[0].knots
     assert 0 < canvas.max_error <= tolerance
 
 

@@ -341,7 +341,7 @@ def test_dimension_lines_and_leaders_do_not_lie_on_lines(line: Line, lies: bool)
             assert leaning.costs([{role: turned}]) == [cost if lies else 0.0]  # type: ignore[dict-item]
             # one that leans by more than a ten-thousandth crosses it
             steep = [Line(at + way * (2 - 0.05j), at + way * (8 + 0.05j))]
-            own = COSTS["edge", role]  # type: ignore[index]
+            own = COSTS["edge", role]
             assert leaning.costs([{role: steep}]) == [own]  # type: ignore[dict-item]
 
 

@@ -29,7 +29,7 @@ def text(parts: dict[str, Keys], kind: str, tail: str = "") -> bytes:
     return (scene(parts) + mate + tail).encode()
 
 
-def mating(parts: dict[str, Keys], kind: str):  # type: ignore[no-untyped-def]
+def mating(parts: dict[str, Keys], kind: str):
     return make_parts(scene_from_toml(text(parts, kind), "s.toml", "s"), "s.toml")[1][0]
 
 

@@ -89,7 +89,7 @@ def test_it_is_told_where_a_mate_stands_and_not_where_conditions_break() -> None
         "b": {"at": [there.centre.real, 0, 0], "rotation_deg": math.degrees(there.rotation)},
     }
     assert mate_of("external_gear_pair", SHORT, WHEEL, instances=place)["transmission_error"]
-    place["b"]["rotation_deg"] += 3.0  # type: ignore[operator]
+    place["b"]["rotation_deg"] += 3.0
     assert "transmission_error" not in mate_of("external_gear_pair", SHORT, WHEEL, instances=place)
 
 

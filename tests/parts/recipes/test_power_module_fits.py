@@ -212,7 +212,7 @@ def test_what_turns_stands_clear_by_the_axial_gap(orientation: str) -> None:
 
 def grooves(part: str) -> list[tuple[complex, float]]:
     """Centres (r + i z) and radii of the arcs that bulge into the section of a turned part."""
-    points: Any = scene_of("cranks").parts[part].points  # type: ignore[union-attr]
+    points: Any = scene_of("cranks").parts[part].points
     ends = list(zip(points, [*points[1:], points[0]], strict=True))
     turn = math.copysign(1.0, sum(a.r * b.z - a.z * b.r for a, b in ends))
     found = []

@@ -78,7 +78,7 @@ def test_poses_and_their_derivatives_are_those_of_40_digits(name: str) -> None:
     for at in (0.2, 1.1, 2.0):
         s = [piece.value(np.float64(at), k) / math.factorial(k) for k in range(5)]
 
-        def moved(t, s=s):  # type: ignore[no-untyped-def]
+        def moved(t, s=s):
             return sum(MP.mpf(float(c)) * t**k for k, c in enumerate(s))
 
         found, angle = cam.mount.centre(s), cam.mount.angle(s)
@@ -99,7 +99,7 @@ def test_at_the_rockers_end_it_is_the_cam_of_an_oscillating_follower(kind: Follo
     radius = 0.0 if kind is POINTED else 8.0
     known = oscillating_cam(motion(D(20)), kind, 40.0, centre_distance=90.0, arm_length=70.0, radius=radius,
                             sense=sense)  # fmt: skip
-    drive = RockerDrive(90 + 0j, 70.0, math.pi - sense * known.mount.start_angle, -sense)  # type: ignore[union-attr]
+    drive = RockerDrive(90 + 0j, 70.0, math.pi - sense * known.mount.start_angle, -sense)
     cam = linkage_cam(
         motion(D(20)), kind, Linkage(drive, 50.0, RockerGuide(120 + 80j * sense, 60.0)), 0j, radius=radius
     )
@@ -125,7 +125,7 @@ def test_a_parallelogram_moves_its_follower_on_a_circle_without_turning() -> Non
     turn = cmath.exp(1j * D(35))
     point = 11 - 17j
     pivot = 90 - point * turn
-    drive = RockerDrive(pivot, 70.0, math.pi - known.mount.start_angle, -1)  # type: ignore[union-attr]
+    drive = RockerDrive(pivot, 70.0, math.pi - known.mount.start_angle, -1)
     # A left of the line from A to the second pivot would be the anti-parallelogram
     parallel = [linkage_cam(motion(D(18)), ROLLER, Linkage(drive, 50.0, RockerGuide(pivot + 50 * turn, 70.0, side)),
                             point, radius=8.0) for side in (1, -1)]  # fmt: skip
@@ -154,7 +154,7 @@ def test_the_middle_of_a_trammels_rod_runs_on_a_circle() -> None:
 def engine(cam: LinkageCam) -> list[EnvelopeCurve]:
     """The same cam by the envelope engine: Savvin's condition, no closed form of roller or face."""
 
-    def moving(t, order):  # type: ignore[no-untyped-def]
+    def moving(t, order):
         s = [cam.motion.value(t, k) / math.factorial(k) for k in range(order + 1)]
         return cam.mount.centre(s), cam.mount.angle(s)
 

@@ -69,7 +69,7 @@ def test_the_smallest_oscillating_cam(sense: int, returning: float | None) -> No
     axis = oscillating_axis(SWING, 80.0, sense, D(40), limit)
     cam = oscillating_cam(SWING, ROLLER, axis.prime_radius - 2, centre_distance=axis.centre_distance, arm_length=80,
                           radius=2, sense=sense)  # fmt: skip
-    assert cam.mount.start_angle == pytest.approx(axis.start_angle, rel=1e-9)  # type: ignore[union-attr]
+    assert cam.mount.start_angle == pytest.approx(axis.start_angle, rel=1e-9)
     assert greatest_pressure_angle(cam, PhaseKind.RISE).value <= D(40) * (1 + 1e-9)
     if limit is not None:
         assert greatest_pressure_angle(cam, PhaseKind.RETURN).value <= limit * (1 + 1e-9)

@@ -226,7 +226,7 @@ def test_a_roller_rolls_over_its_own_corner() -> None:
     shape = cam_shape(translating_cam(motion, ROLLER, 30.0, radius=6.0))
     arcs = [s.curve for s in shape.profile.period if s.label is Label.CORNER]
     assert len(arcs) == 1
-    assert arcs[0].radius == pytest.approx(6.0)  # type: ignore[union-attr]
+    assert arcs[0].radius == pytest.approx(6.0)
     assert len(shape.gaps) == 1
     assert shape.lost_lift > 0
 

@@ -42,14 +42,14 @@ def checks_of(kind: str, width: float, instances: dict[str, Any] | None = None, 
     """The check of a pair whose first is ``a`` and whose second is ``b``."""
     first, second = two(kind, width, **keys)
     made, _, stand = scene({"a": first, "b": second}, {"kind": kind, "first": "a", "second": "b"}, instances=instances)
-    return scene_checks(stand, made, (), "en", contact=True)["mates"][0]  # type: ignore[no-any-return]
+    return scene_checks(stand, made, (), "en", contact=True)["mates"][0]
 
 
 def enough(kind: str) -> float:
     """The face width that makes up for the transverse contact ratio, mm."""
     found = checks_of(kind, 1.0)
     assert 0.3 < found["effective_contact_ratio"] < 1
-    return (1 - found["effective_contact_ratio"]) * math.pi * 2.0 / math.sin(math.radians(45))  # type: ignore[no-any-return]
+    return (1 - found["effective_contact_ratio"]) * math.pi * 2.0 / math.sin(math.radians(45))
 
 
 @pytest.mark.sampled(1)

@@ -120,7 +120,7 @@ def test_the_guidelines() -> None:
     (kudryavtsev, (12, 61), "12/60"), (kudryavtsev, (21, 13), Nearest(13, "at_most")), (guidelines, (13, 21), "12/12"),
     (gost_16532, (9, 30), Nearest(10, "at_least")),
 ], ids=lambda v: getattr(v, "__name__", str(v)))  # fmt: skip
-def test_pairs_beyond_the_tables_get_the_nearest(function, pair, expected) -> None:  # type: ignore[no-untyped-def]
+def test_pairs_beyond_the_tables_get_the_nearest(function, pair, expected) -> None:
     with pytest.raises(ParameterError) as refused:
         function(*pair)
     assert (refused.value.nearest or refused.value.numbers["known"]) == expected

@@ -71,7 +71,7 @@ def test_walls_of_an_eccentric_disk_are_circles(name: str) -> None:
 @pytest.mark.parametrize("name", GROOVES)
 def test_a_roller_in_a_round_groove_moves_as_its_triangle_says(name: str) -> None:
     """A circle about a point off the axis holds a roller from outside; the cam's own law does not enter."""
-    cam = wide_roller(parts_of({"cam": GROOVES[name]})["cam"].thing.cam, 0.2)  # type: ignore[arg-type]
+    cam = wide_roller(parts_of({"cam": GROOVES[name]})["cam"].thing.cam, 0.2)
     size, arm = 60.0, 9.0
     circle = outline_of_loop(np.array([size + arm, arm - size]) + 0j, np.ones(2), clockwise=True)
     found = rolled_lift(cam, circle, 72, below=False)

@@ -38,8 +38,8 @@ def second_centres(first: Part, two: Part, angle: np.ndarray) -> np.ndarray:
     if "roller_distance" in two.quantities:
         return np.asarray(centre - 1j * two.quantities["roller_distance"])
     mount = first.thing.mount
-    turn = cmath.exp(-1j * mount.sense * math.radians(two.quantities["roller_angle_deg"]))  # type: ignore[union-attr]
-    pivot = mount.centre_distance  # type: ignore[union-attr]
+    turn = cmath.exp(-1j * mount.sense * math.radians(two.quantities["roller_angle_deg"]))
+    pivot = mount.centre_distance
     return np.asarray(pivot + (centre - pivot) * turn)
 
 

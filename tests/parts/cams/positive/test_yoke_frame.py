@@ -152,6 +152,6 @@ def test_the_departure_is_told_in_numbers() -> None:
     """A rise of 110 and a return of 130 degrees: the greatest departure by a dense table of the lift."""
     cam = WRONG["uneven"][0]
     told = refused({"cam": cam, "yoke": YOKE}).numbers["error"]
-    motion = parts_of({"cam": cam})["cam"].thing.motion  # type: ignore[union-attr]
+    motion = parts_of({"cam": cam})["cam"].thing.motion
     dense = np.linspace(0, math.pi, 20001)
     assert told == pytest.approx(np.abs(motion.value(dense) + motion.value(dense + math.pi) - 20).max(), rel=1e-3)

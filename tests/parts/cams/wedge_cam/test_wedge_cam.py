@@ -135,7 +135,7 @@ def test_the_follower_rolled_over_the_file_agrees_with_a_sweep(name: str, tmp_pa
     for entry in read_report(folder)["files"]:
         assert 0 < entry["measured"][key] < 3 * entry["tolerance"]
     path = folder / "cam.laser.dxf"
-    rolled = rolled_lift(cam, outermost(read_dxf(path).section(0.0)).outline(), 48)[:25]  # type: ignore[arg-type]
+    rolled = rolled_lift(cam, outermost(read_dxf(path).section(0.0)).outline(), 48)[:25]
     chain = dxf_chains(path)[0]
     share, points = np.linspace(0, 1, 4000), []
     for start, end, sweep in zip(chain.vertices, np.roll(chain.vertices, -1), chain.sweeps, strict=True):
