@@ -391,6 +391,7 @@ def test_a_page_is_reckoned_again_from_what_it_gives(keys: tuple[str, ...]) -> N
             ).all()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("assignment", range(2, 11))
 def test_what_is_said_to_be_free_is_taken(assignment: int) -> None:
     """Keys by which the note says that the lost figure may be made up for; a machine of two cylinders is named."""

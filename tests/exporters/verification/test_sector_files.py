@@ -81,6 +81,7 @@ def test_files_hold_the_wedge_of_the_gear(folder: Path, name: str) -> None:
     assert volume == pytest.approx(asked_volume, abs=0.01 * WIDTH * (outline(name).length + 8 * math.pi))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SECTORS)
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 def test_spoiled_files_are_caught(folder: Path, tmp_path: Path, name: str, share: float) -> None:

@@ -90,6 +90,7 @@ def test_default_tips_keep_off_fillets_and_given_ones_stay(pair: Pair) -> None:
     assert any(made[name] < alone[name] - 0.005 for name in made)
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("backlash", [None, 0.03])
 @pytest.mark.parametrize(
     ("pair", "part"),

@@ -433,6 +433,7 @@ def test_what_cannot_be_cut_is_refused_by_its_key(
         assert main(["check", str(written(tmp_path, text_of(better[0], **better[1])))]) == 0
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("assignment", range(2, 11))
 def test_the_assignments_of_the_guidelines_can_be_cut(
     assignment: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -72,6 +72,7 @@ def gap(case: Case, rho: float, contact: int) -> float:
     )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("case", _CASES)
 def test_teeth_touch_from_the_first_to_the_last_of_the_line_of_contact(case: Case) -> None:
     mesh = sector_meshes(made(case)[0])[0]

@@ -128,6 +128,7 @@ RIDES = [(name, 10.0, None) for name in WHEELS if name != "clockwise"]
 RIDES += [("straight back", 1.0, None), ("straight back", 30.0, 10.0), ("ring", 25.0, 60.0), ("notch of 60", 4.0, -5.0)]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "clearance", "line"), RIDES)
 def test_a_pawl_rides_where_polygons_first_meet(name: str, clearance: float, line: float | None) -> None:
     """From where the tooth before it has let it drop to where the next one does."""
@@ -159,6 +160,7 @@ def test_a_pawl_drops_where_the_edge_is_beyond_its_reach(name: str) -> None:
     assert blocked(pawl, pawl.overrun * 0.8) > 1e-5
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", WHEELS)
 def test_contact_is_seen_and_what_is_off_is_not_taken_for_it(name: str) -> None:
     pawl = pawl_for(WHEELS[name])
