@@ -16,7 +16,7 @@ from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.instances import DriveSpec
-from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
+from parts.scene.placing import Closeness, PlacedMate, Placing
 from parts.scene.standing import Instance
 from parts.texts.checks import CLOSE, OFF_CENTRE, called, condition_message, overlap_told
 from parts.texts.findings import findings_told
@@ -182,8 +182,13 @@ def _mate(mate: PlacedMate, told: _Teller, *, contact: bool) -> dict[str, Any]:
         found = check_pair(mate.mating, told.language)
     found["direction_deg"] = math.degrees(mate.direction)
     found["second_rotation_deg"] = math.degrees(mate.second.rotation)
-    if mate.conditions:
-        found["conditions"] = [_condition(c, mate, told) for c in mate.conditions]
+    asked = [
+        (one.code, one.met, {key: getattr(one, key) for key in ("value", "required", "tolerance")})
+        for one in mate.conditions
+    ]
+    asked += [(code, False, numbers) for code, numbers in mate.mating.broken(mate.direction).items()]
+    if asked:
+        found["conditions"] = [_condition(*one, mate, told) for one in asked]
     return found
 
 
@@ -214,11 +219,10 @@ def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
         found["transmission_error"] = mate.mating.transmission_error(mate.centre_shift)
 
 
-def _condition(condition: Condition, mate: PlacedMate, told: _Teller) -> dict[str, Any]:
-    numbers = {"value": condition.value, "required": condition.required, "tolerance": condition.tolerance}
+def _condition(code: str, met: bool, numbers: Mapping[str, float], mate: PlacedMate, told: _Teller) -> dict[str, Any]:
     first, second = (told.names.get(one.id, one.id) for one in (mate.first, mate.second))
-    text = words(told.language).say(condition_message(condition.code, first, second, **numbers))
-    return {"code": condition.code, "met": condition.met, **numbers, "text": text}
+    text = words(told.language).say(condition_message(code, first, second, **numbers))
+    return {"code": code, "met": met, **numbers, "text": text}
 
 
 def _neighbours(close: Closeness, told: _Teller) -> dict[str, Any]:

@@ -160,7 +160,7 @@ def _sector(found: Mapping[str, Any], mate: Mapping[str, Any], told: Words, name
 
 
 def _condition(mate: Mapping[str, Any], found: Mapping[str, Any]) -> Message:
-    numbers = {key: found[key] for key in ("value", "required", "tolerance")}
+    numbers = {key: number for key, number in found.items() if key not in ("code", "met", "text")}
     return condition_message(found["code"], mate["first"], mate["second"], **numbers)
 
 

@@ -225,6 +225,10 @@ class Mating(Joined, kw_only=True):
         """Conditions of both together that are not kept."""
         return ()
 
+    def broken(self, direction: float) -> Mapping[str, dict[str, float]]:
+        """Conditions that both do not keep in any phase, the second in that direction, rad: codes with their numbers."""
+        return {}
+
     @property
     def stands_in_mesh(self) -> bool:
         """Whether ``driven`` asks for all of the way, and for both as they stand where nothing drives them."""

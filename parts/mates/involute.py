@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
 
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
 
     Pair = ExternalPair | InternalPair | RackPair
 
+# of the module, by which tips are tried shorter
+_SHORTER = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
 # what is no turn, rad
 _SLIGHT = 1e-9
 
@@ -170,8 +173,6 @@ class GearMating(Toothed):
         from geometry.base.findings import Finding
 
         found = self.face.findings(self.pair.findings(), self.pair.effective_contact_ratio)
-        if self.steps is not None:
-            found = *found, *self.steps.mesh.jam
         if self.alone is None:
             return found
         made = zip(self.alone.roles, self._tips(self.pair), self._tips(self.alone), strict=True)
@@ -251,6 +252,28 @@ class ExternalMating(GearMating):
         if self.steps is not None:
             rotation = direction + self.steps.advanced(rotation - direction)
         return self.pair.second_rotation(rotation, direction)
+
+    def broken(self, direction: float) -> Mapping[str, dict[str, float]]:
+        """An intermittent mate stands so that the first tooth comes in; else shorter tips of the sector, if any."""
+        if (steps := self.steps) is None or steps.mesh.entry_margin >= 0:
+            return {}
+        from geometry.gears.pairs.external import external_pair
+        from geometry.gears.pairs.sector_mesh import Steps, sector_meshes
+
+        gear, mate = self.pair.gears
+        given = 2 * gear.tip_radius
+
+        def comes_in(tip: float) -> bool:
+            pair = external_pair(replace(gear, given_tip_diameter=tip), mate, self.distance)
+            mesh = sector_meshes(pair)[0]
+            return mesh.entry_margin >= 0 and pair.contact_ratio > 0 and Steps(mesh, pair, steps.way).rest > 0
+
+        found = nearest(comes_in, given, [given - share * gear.module for share in _SHORTER])
+        turned = math.degrees(math.remainder(direction + steps.jams_at, math.tau))
+        numbers = {"value": steps.mesh.entry_margin, "angle_deg": turned}
+        if found is None or not isinstance(found.value, float):
+            return {"first_tooth_jams": numbers}
+        return {"first_tooth_jams_unless_shorter": numbers | {"tip_diameter": found.value}}
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash."""

@@ -88,10 +88,11 @@ def overlap_told(found: Mapping[str, Any], told: Words, names: Mapping[str, str]
     return told.text(OVERLAP, **numbers)
 
 
-def condition_message(code: str, first: str, second: str, value: float, required: float, tolerance: float) -> Message:
-    """A condition of a mate as a sentence."""
-    numbers: dict[str, object] = {"value": value, "required": required, "tolerance": tolerance}
+def condition_message(code: str, first: str, second: str, **given: float) -> Message:
+    """A condition of a mate as a sentence, with the numbers that it names."""
+    numbers: dict[str, object] = {**given}
     if code == "train":
-        turned = {"value": value, "required": required}
-        numbers |= {key: counted("{n:.9g} time", "{n:.9g} times", by="n", n=n) for key, n in turned.items()}
+        numbers |= {
+            key: counted("{n:.9g} time", "{n:.9g} times", by="n", n=given[key]) for key in ("value", "required")
+        }
     return filled(CONDITIONS[code], first=first, second=second, **numbers)

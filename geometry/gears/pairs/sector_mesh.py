@@ -49,7 +49,7 @@ class SectorMesh(Record):
     ``first``, ``last``: of the outer teeth of the first run, in the sector; ``twist``: by how much teeth turn from face
     to face. ``rate``: the mate's motion, rad or mm, for one rad. ``entry_margin``: along the tips of a mate that stands
     where the last tooth has left it, from where those of the first tooth pass them to the nearest tip land, mm: below 0
-    they run into each other, or its flank would push the tooth that it meets back.
+    they run into each other, or into the flank beside it, or its own flank would push the tooth that it meets back.
     """
 
     teeth: int
@@ -147,6 +147,30 @@ class Steps(Record, dict=True):
         return min(self._pushed(self.stands), self.line.low) if self.stands < self.line.low else self.stands
 
     @property
+    def jams_at(self) -> float:
+        """The turn of the sector as its first tooth stops at the standing mate; only where that jams."""
+        pair, a, behind = self.pair, self.pair.working_centre_distance, _behind(self.pair, 0)
+        (own, tip), pitch = pair.tip_form_radii, pair.second.pitch_angle
+        half, (enters, deepest) = _half(pair.second, tip), _coming_in(pair, 0)
+
+        def on_land(middle: float) -> float:
+            # its flank, at best where their normal goes through the mate's axis, or its tip
+            locks = math.asin(pair.first.base_radius / a)
+            met = a - cmath.rect(tip, min(max(locks, middle - half), middle + half, _met(pair, 0)))
+            return cmath.phase(met) - _half(pair.first, abs(met))
+
+        def within(towards: float) -> float:
+            # how far its tip is in the flank of the tooth behind the one that it is to push
+            return -_at_tip(pair, 0, towards) - behind
+
+        at = on_land(behind - pitch)
+        if within(enters) >= 0:
+            at = min(at, on_land(behind))
+        elif within(deepest) > 0:
+            at = min(at, -bracketed_root(within, deepest, enters).value - _half(pair.first, own))
+        return self.way * (at - (self.mesh.last if self.way > 0 else -self.mesh.first))
+
+    @property
     def rest(self) -> float:
         """Over which the sector turns from run to run while the mate stands; not above 0: it never does."""
         return self.mesh.turn - (self.left - self.first_touch + self.mesh.last - self.mesh.first)
@@ -190,11 +214,28 @@ def _left(pair: ExternalPair, index: int) -> tuple[float, float]:
     It slips off where the tip circles cross, or before that no longer pushes: as the flank's normal goes through the
     sector's axis, it has turned the mate as far as it will.
     """
-    gear, mate, a = pair.gears[index], pair.gears[1 - index], pair.working_centre_distance
-    own, tip = pair.tip_form_radii[index], pair.tip_form_radii[1 - index]
-    towards = min(_angle((a**2 + own**2 - tip**2) / (2 * a * own)), math.asin(mate.base_radius / a))
-    corner = a - cmath.rect(own, towards)
-    return towards - _half(gear, own), cmath.phase(corner) - _half(mate, abs(corner))
+    towards = _coming_in(pair, index)[1]
+    return towards - _half(pair.gears[index], pair.tip_form_radii[index]), _at_tip(pair, index, towards)
+
+
+def _coming_in(pair: ExternalPair, index: int) -> tuple[float, float]:
+    """Directions about the sector's axis, off the line of centres: of where the tip circles cross, and of the place on
+    its own between there and that line at which its tip comes deepest into flanks of the mate.
+    """
+    a, own, tip = pair.working_centre_distance, pair.tip_form_radii[index], pair.tip_form_radii[1 - index]
+    crossing = _angle((a**2 + own**2 - tip**2) / (2 * a * own))
+    return crossing, min(crossing, math.asin(pair.gears[1 - index].base_radius / a))
+
+
+def _at_tip(pair: ExternalPair, index: int, towards: float) -> float:
+    """Where a tooth of the mate stands whose flank a tip of the sector touches from there."""
+    corner = pair.working_centre_distance - cmath.rect(pair.tip_form_radii[index], towards)
+    return cmath.phase(corner) - _half(pair.gears[1 - index], abs(corner))
+
+
+def _behind(pair: ExternalPair, index: int) -> float:
+    """Where the tooth of the standing mate stands behind the one that the first tooth meets."""
+    return _left(pair, index)[1] + (_ahead(pair, index) + 1) * pair.gears[1 - index].pitch_angle
 
 
 def _ahead(pair: ExternalPair, index: int) -> int:
@@ -240,7 +281,7 @@ def _contact(pair: Pair, index: int) -> Sense:
 
 
 def _entry_margin(pair: Pair, index: int) -> float:
-    """Of ``SectorMesh``, for the gear at its place: the mate stands with a corner where the tip circles cross last."""
+    """Of ``SectorMesh``, for the gear at its place: the mate stands where the last tooth has left it."""
     gear = pair.gears[index]
     if isinstance(pair, RackPair):
         half, line = _land(pair.sides[1]), pair.distance - pair.rack.addendum
@@ -248,12 +289,13 @@ def _entry_margin(pair: Pair, index: int) -> float:
         return abs(math.remainder(2 * met + half, pair.rack.pitch)) - half
     mate, half = pair.gears[1 - index], _land(pair.sides[1 - index])
     if isinstance(pair, ExternalPair):
-        left, met = _left(pair, index)[1], _met(pair, index)
-        tooth = _half(pair.gears[1 - index], pair.tip_form_radii[1 - index])
-        corner = left + _ahead(pair, index) * mate.pitch_angle + tooth
-        # beyond there a flank that touches the corner pushes it back
+        behind, met = _behind(pair, index), _met(pair, index)
+        # coming in, the tip passes the tooth behind as it would leave it going out the other way
+        flank = behind + _left(pair, index)[1]
+        # beyond there a flank that touches the corner of the tooth before that one pushes it back
+        corner = behind - mate.pitch_angle + _half(pair.gears[1 - index], pair.tip_form_radii[1 - index])
         back = math.asin(gear.base_radius / pair.working_centre_distance) - corner
-        return mate.tip_radius * min(abs(math.remainder(left - met, mate.pitch_angle)) - half, back)
+        return mate.tip_radius * min(abs(math.remainder(behind - met, mate.pitch_angle)) - half, flank, back)
     return mate.tip_radius * (abs(math.remainder(2 * _met(pair, index) + half, mate.pitch_angle)) - half)
 
 

@@ -154,12 +154,30 @@ def test_an_intermittent_pair_turns_by_whole_teeth_and_is_clear(way: str) -> Non
 def test_a_first_tooth_that_jams_is_told(
     teeth: int, jams: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """A broken condition, with the turn of the first at which it jams and the tips that come in."""
     first = GEAR | {"number_of_teeth": 24, "sector": {"teeth": 4, "runs": 2}}
     raw = pair("external_gear_pair", first, GEAR | {"number_of_teeth": teeth}, 1.0, intermittent="clockwise")
     code, mate = found_of(raw, tmp_path, capsys)
-    assert code == 0
-    assert ("first_tooth_jams" in codes(mate)) is jams
+    assert code == int(jams)
     assert (mate["sectors"][0]["entry_margin"] < 0) is jams
+    assert ("conditions" in mate) is jams
+    if not jams:
+        return
+    (found,) = mate["conditions"]
+    # the tip corner of the last tooth, which comes first, where the tip circles of 26 m and 22 m cross
+    crossing = math.acos((44**2 + 26**2 - 22**2) / (2 * 44 * 26))
+    half = math.pi / 48 + _involute(math.radians(20)) - _involute(math.acos(24 * math.cos(math.radians(20)) / 26))
+    # tooth -1 stands first of -1 to 2
+    asked = math.degrees(crossing + half) + 360 / 24
+    assert found["angle_deg"] == pytest.approx(asked, abs=1e-3)
+    assert found["value"] == mate["sectors"][0]["entry_margin"]
+    for tip, comes_in in ((found["tip_diameter"], True), (found["tip_diameter"] + 1e-3, False)):
+        shorter = {**raw, "parts": {**raw["parts"], "a": first | {"tip_diameter": tip}}}
+        assert (found_of(shorter, tmp_path, capsys)[0] == 0) is comes_in
+
+
+def _involute(angle: float) -> float:
+    return math.tan(angle) - angle
 
 
 @pytest.mark.parametrize(

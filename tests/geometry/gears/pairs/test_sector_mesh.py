@@ -197,26 +197,35 @@ def test_a_first_tooth_that_jams_meets_a_tip_from_outside(case: Case, jams: bool
     assert (pair.first.tip_radius - corner < 1e-6) is jams
 
 
-@pytest.mark.parametrize(
-    ("case", "back"),
-    [
-        (Case(12, 4, 11, x2=-0.1), True),
-        (Case(30, 7, 30), False),
-        (Case(24, 6, 17), False),
-    ],
-)
-def test_a_first_tooth_whose_flank_pushes_the_mate_back_is_told(case: Case, back: bool) -> None:
-    """Of the two ways in which the mate can make room where the first tooth runs into it, the free one is told."""
+_JAMS = (
+    Case(24, 5, 20), Case(40, 9, 15), Case(12, 4, 11, x2=-0.1), Case(16, 2, 9, x1=0.4, x2=-0.1),
+    Case(13, 4, 10, x1=0.4, x2=-0.1), Case(12, 4, 11, x1=0.3, x2=0.2), Case(12, 4, 10, x2=0.3),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("case", [*_JAMS, Case(30, 7, 30), Case(24, 6, 17)])
+def test_a_standing_mate_gives_way_to_the_first_tooth_or_that_jams_where_it_is_told(case: Case) -> None:
+    """Just beyond the first touch of polygons a mate that jams is free nowhere near where it is to be turned to."""
     pair, one, two = made(case)
     mesh = sector_meshes(pair)[0]
-    assert (mesh.entry_margin < 0) is back
     steps = Steps(mesh, pair, 1)
+    assert (mesh.entry_margin < 0) is (case in _JAMS)
     stands, a = pair.second_rotation(steps.stands - mesh.last, contact=1), pair.working_centre_distance
-    standing = put(two, stands, a)
-    places = steps.first_touch - mesh.last + np.arange(-0.6, 0.2, 1e-3)
-    touch = next(rho for rho in places if put(one, rho).intersection(standing).area > 1e-7)
-    on, behind = (put(one, touch + 1e-3).intersection(put(two, stands + turn, a)).area for turn in (-2e-4, 2e-4))
-    assert (behind < on) is back
+
+    def overlap(rho: float, turn: float = 0.0) -> float:
+        return float(put(one, rho).intersection(put(two, stands - turn, a)).area)
+
+    expected = steps.jams_at if case in _JAMS else steps.first_touch - mesh.last
+    low, high = expected - 0.01, expected + 2e-3
+    assert max(overlap(rho) for rho in np.arange(low - 0.6, low, 0.01)) == 0.0
+    assert overlap(high) > 1e-6
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (low, middle) if overlap(middle) > 1e-9 else (middle, high)
+    assert high == pytest.approx(expected, abs=1e-3)
+    free = any(overlap(high + 1e-4, turn) < 1e-8 for turn in np.linspace(0.0, 0.012, 25))
+    assert free is (case not in _JAMS)
+    assert Steps(mesh, pair, -1).jams_at == pytest.approx(-steps.jams_at - mesh.last - mesh.first, abs=1e-12)
 
 
 def crossing(own: float, other: float, apart: float) -> complex:
