@@ -118,6 +118,8 @@ table{border-collapse:collapse;width:100%;margin-bottom:1.5rem}td,th{border-bott
 text-align:left;vertical-align:top}td.r{white-space:nowrap;font-weight:bold}td.f{font-style:italic}
 td.f{width:46%}sub{line-height:0;font-size:.7em}tr{page-break-inside:avoid}
 span.w{color:#a00}h2{font-size:1.15rem;margin:1.5rem 0 .4rem}svg{max-width:100%;height:auto}
+@media screen and (max-width:40rem){body{font-size:13px;margin:.5rem auto;padding:0 .4rem}
+td,th{padding:.2rem .25rem}td.r{white-space:normal}td.f{width:auto;overflow-wrap:anywhere}}
 @page{margin:12mm}@media print{body{margin:0;max-width:none;font-size:11px}figure{margin:0;page-break-inside:avoid}
 svg{max-height:250mm}}"""
 
@@ -126,6 +128,8 @@ def _html(sheet: Sheet, told: Words) -> str:
     title = html.escape(_phrase(sheet.title, told))
     lines = [
         f'<!DOCTYPE html>\n<html lang="{told.language}">\n<head>\n<meta charset="utf-8">',
+        # a phone takes a page for 980 px wide unless told
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f"<title>{title}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>",
     ]
     for section in sheet.sections:

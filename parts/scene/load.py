@@ -126,6 +126,8 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     name = path.stem.encode("utf-8", "replace").decode()
     if not name.strip(". ") or not name.isprintable():
         raise SceneError(address, "", None, "nameless_file")
+    if name.rstrip(". ") != name:
+        raise SceneError(address, "", None, "name_ends_in_dot")
     if name.partition(".")[0].lower() in DEVICE_NAMES:
         raise SceneError(address, "", None, "device_name")
     return scene_from_toml(raw_bytes, str(path), name, language)

@@ -1,7 +1,8 @@
 """Tables of a cam's motion from files of the user's: ``motion_table = { file = "lift.csv" }`` becomes its rows.
 
 Two columns, the cam angle and the lift or swing, as spreadsheets write them: between semicolons or tabs with decimal
-commas or points, between commas or blanks with points; lines of words before the first row are passed over.
+commas or points, between commas or blanks with points; lines of words before the first row are passed over,
+and so are rows without anything in them.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def rows_of(raw: bytes, name: str) -> list[list[float]]:
         # of a code page only the words of a head are strange
         text = raw.decode("latin-1")
     lines = [(number, line.strip()) for number, line in enumerate(text.replace('"', "").splitlines(), 1)]
-    lines = [(number, line) for number, line in lines if line and not line.startswith(("#", "sep="))]
+    lines = [(number, line) for number, line in lines if line.strip(";, ") and not line.startswith(("#", "sep="))]
     told = "\n".join(line for _, line in lines if any(c.isdigit() for c in line))
     between = next((mark for mark in ";\t" if mark in told), "," if re.search(r"\d\s*,\s*[-+.\d]", told) else None)
     if between == "," and re.search(r"(?m)^[^\s,]+(,\d+)?[ ]+[-\u2212]?\d+(,\d+)?$", told):

@@ -398,6 +398,8 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     assert language == "uk" or not re.search(r"\d,\d", made["text"])
     assert made["md"].startswith(f"# {title}")
     assert f'<html lang="{language}">' in made["html"]
+    # else a phone shows it as wide as a desk's screen, too small to read
+    assert '<meta name="viewport" content="width=device-width, initial-scale=1">' in made["html"]
     # what is printed has the mark of its language, and true minus signs
     results = [html.unescape(cell) for cell in re.findall(r'<td class="r">(.*?)</td>', made["html"])]
     for result, step in zip(results, sheet.steps(), strict=True):

@@ -47,6 +47,8 @@ FILES = {
     "blanks": file_of("  ", head="# measured\n\n").encode(),
     "blanks, decimal commas": file_of(" ", ",").encode(),
     "empty column": file_of(";", ",").replace("\n", ";;\n").encode(),
+    # a sheet that had more rows once
+    "empty rows": (file_of(";", ",", ";;\n") + ";\n;;\n").encode(),
     "quoted": ("\n".join(f'"{a:g}","{s:g}"' for a, s in ROWS)).encode(),
 }
 
