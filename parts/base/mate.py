@@ -226,7 +226,7 @@ class Mating(Joined, kw_only=True):
         return ()
 
     def broken(self, direction: float) -> Mapping[str, dict[str, float]]:
-        """Conditions that both do not keep in any phase, the second in that direction, rad: codes with their numbers."""
+        """What both do not keep in any phase, the second in that direction, rad: codes with their numbers."""
         return {}
 
     @property
