@@ -31,6 +31,8 @@ _NEAR = 1e-9
 _SEATED = 1e-9
 # of a pitch, in which a pawl falls that has been lifted
 _FALL = 0.1
+# of the way until the wheel has overrun; rad, of rounding
+_PLACES, _ROUNDING = 48, 1e-9
 
 
 class PawlShape(Record, dict=True):
@@ -243,6 +245,30 @@ class PawlShape(Record, dict=True):
         )
 
     @cached_property
+    def room(self) -> float:
+        """What is left, rad, between how far the back lifts it out of the notch and how far the face before it lets it.
+
+        The least until the wheel has overrun: below 0 it is caught, and the wheel does not turn freely.
+        """
+        turns = [self.overrun * k / _PLACES for k in range(1, _PLACES)] if self.overrun > 0 else []
+        return min((self._lets(turn) - self.stands(turn) for turn in turns), default=math.inf)
+
+    def _lets(self, turn: float) -> float:
+        """How far it may swing out before it touches the tooth that it has held, rad."""
+        side, placed = self.wheel.side, cmath.exp(1j * turn)
+        nose, radius, edge = self.nose - self.pivot, self.nose_radius, self.edge * placed - self.pivot
+        front = self.wheel.face_way * placed
+        face = Line(self._lines()[0].end - self.pivot, nose - radius * self.wheel.face_normal)
+        found = [*_onto_circle(nose, edge, radius), *_line_onto(face, edge, 0.0, side)]
+        found += [
+            angle
+            for angle in _onto_line(nose, edge, self.wheel.face_normal * placed, radius)
+            if 0 <= dot(nose * cmath.exp(1j * angle) - edge, front) <= self.wheel.face_length
+        ]
+        lifts = (math.remainder(-side * angle, math.tau) for angle in found)
+        return min((lift for lift in lifts if lift > 0), default=math.inf)
+
+    @cached_property
     def swing(self) -> float:
         """How far it swings as its nose passes a land, rad."""
         wheel, radius = self.wheel, self.wheel.tip_radius + self.wheel.side * self.nose_radius
@@ -373,6 +399,8 @@ def checked_pawl(pawl: PawlShape) -> PawlShape:
     knee = pawl.pivot + (pawl.knee - pawl.pivot) * cmath.exp(-1j * side * pawl.swing)
     if not side * (abs(knee) - pawl.clear_radius) >= 0:
         raise ParameterError("length", pawl.length, "pawl_too_short")
+    if not pawl.room >= -_ROUNDING:
+        raise ParameterError("line_angle_deg", math.degrees(pawl.line_angle), "pawl_is_caught")
     if pawl.tail is not None and not all(pawl.tail_clears(lift) for lift in (0.0, pawl.swing)):
         raise ParameterError("tail_length", pawl.tail[0], "tail_reaches_teeth")
     return pawl

@@ -9,15 +9,20 @@ import random
 from pathlib import Path
 from typing import Any
 
+import msgspec
+import numpy as np
 import pytest
+from shapely import affinity
 
 from exporters.command.cli import main
 from exporters.production.check import scene_checks
 from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
+from parts.ratchets.pawl import PawlSpec, pawl_of
+from parts.ratchets.wheel import RatchetWheelSpec, ratchet_of
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
-from tests.geometry.gears.ratchets.test_ratchets import blocked, ridden
+from tests.geometry.gears.ratchets.test_ratchets import blocked, polygon, ridden, wheel_polygon
 from tests.sampling import some_of
 
 Keys = dict[str, Any]
@@ -239,6 +244,39 @@ def test_a_pawl_that_leans_is_as_long_as_its_teeth_need(teeth: int, line: float)
     """Its default length: one whose pivot stood before the knee of its underside ran into the teeth."""
     _, checks = placed(WHEEL | {"number_of_teeth": teeth}, PAWL | {"line_angle_deg": line})
     assert checks["mates"][0]["verdict"] == "contact"
+
+
+_CAUGHT: list[tuple[Keys, Keys]] = [
+    (WHEEL | {"number_of_teeth": 4, "front_angle_deg": 2.2, "tooth_depth": 7.4},
+     PAWL | {"line_angle_deg": 44.9, "length": 55.6, "nose_height": 5.5, "clearance": 1.07}),
+    (WHEEL | {"number_of_teeth": 3, "turns": "cw", "front_angle_deg": 1.2, "notch_angle_deg": 39.8,
+              "root_fillet_radius": 1.0}, PAWL | {"line_angle_deg": 66.5}),
+    (WHEEL | {"number_of_teeth": 4, "front_angle_deg": 9.2, "notch_angle_deg": 60.9},
+     PAWL | {"line_angle_deg": 49.1, "clearance_angle_deg": 0.36, "nose_height": 8.4}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("wheel", "pawl"), _CAUGHT)
+def test_a_pawl_that_the_face_does_not_let_out_is_refused(wheel: Keys, pawl: Keys) -> None:
+    """By polygons: beyond the angle that is offered some turn of the wheel leaves it no place at all, below it does."""
+    refused = refusal(wheel, pawl)
+    assert refused is not None
+    assert refused.nearest is not None
+    assert (refused.key, refused.code) == ("parts.pawl.line_angle_deg", "pawl_is_caught")
+    allowed = refused.nearest.value
+    assert isinstance(allowed, float)
+    assert refusal(wheel, pawl | {"line_angle_deg": allowed}) is None
+    owner = msgspec.convert(wheel | {"face_width": 5.0}, RatchetWheelSpec)
+    for angle, caught in ((pawl["line_angle_deg"], True), (allowed + 1.0, True), (allowed - 1e-4, False)):
+        keys = msgspec.convert(pawl | {"line_angle_deg": angle, "face_width": 5.0}, PawlSpec)
+        shape = pawl_of(keys, ratchet_of(owner), owner.module)
+        edges, at = polygon(shape.edges()), (shape.pivot.real, shape.pivot.imag)
+        least = []
+        for turn in np.linspace(0.1, 0.9, 9) * shape.overrun:
+            fixed = affinity.rotate(wheel_polygon(shape.wheel), turn, (0, 0), use_radians=True)
+            lifts = shape.stands(turn) + np.linspace(-0.01, 0.01, 11)
+            least.append(min(affinity.rotate(edges, -x, at, use_radians=True).intersection(fixed).area for x in lifts))
+        assert (max(least) > 3e-4) is caught
 
 
 def random_ratchet(draw: random.Random) -> tuple[Keys, Keys]:
