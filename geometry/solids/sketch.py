@@ -20,7 +20,8 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.distance import Flags
 from geometry.plane.profile import Label, Profile
 from geometry.solids.body import Body, Wall
-from geometry.solids.turned import HalfSection
+from geometry.solids.bores import FlatBore
+from geometry.solids.turned import HalfSection, Pocket
 
 # what is one height or one place, mm; samples of a curve; steps of a halving
 _SAME, _SAMPLES, _HALVINGS = 1e-7, 33, 40
@@ -266,7 +267,7 @@ def _is_toothed(profile: Profile) -> bool:
 
 
 def sketch_of_turned(section: HalfSection, *, is_shaft: bool = False) -> Sketch:
-    """A turned part without its pockets."""
+    """A turned part with its flats, without its keyways."""
     chain, creases = [], []
     for piece, after in zip(section.pieces, (*section.pieces[1:], section.pieces[0]), strict=True):
         points = piece.points()
@@ -275,13 +276,36 @@ def sketch_of_turned(section: HalfSection, *, is_shaft: bool = False) -> Sketch:
         arriving, leaving = points[-1] - points[-2], np.diff(after.points()[:2])[0]
         if abs(np.angle(leaving / arriving)) > _EDGE:
             creases.append(float(points[-1].imag))
-    layers = tuple(lathe(chain, [(h.centre, h.radius) for h in section.holes]))
-    return Sketch(layers, tuple(creases), None, is_shaft, section.is_ball)
+    flats = [p for p in section.pockets if p.is_flat]
+    levels = [z for p in flats for z in (p.low, p.high)]
+    layers = tuple(
+        _flattened(layer, [p for p in flats if p.low < (layer.low + layer.high) / 2 < p.high])
+        for layer in lathe(chain, [(h.centre, h.radius) for h in section.holes], levels)
+    )
+    return Sketch(layers, (*creases, *levels), None, is_shaft, section.is_ball)
 
 
-def lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[complex, float]] = ()) -> Iterator[Layer]:
-    """The layers of half a section, whose lines are r + iz; round holes go through along the axis."""
-    levels = sorted({round(p.imag, 9) for edge in chain for p in edge})
+def _flattened(layer: Layer, flats: Sequence[Pocket]) -> Layer:
+    """A turned layer whose outermost circle has one flat or two opposite ones, of those that reach beyond them."""
+
+    def cut(rings: tuple[Ring, ...]) -> tuple[Ring, ...]:
+        *inner, outer = rings
+        if not flats or outer.circle is None or outer.circle[1] <= flats[0].floor:
+            return rings
+        bore = FlatBore(2 * outer.circle[1], flats[0].floor, len(flats), flats[0].angle)
+        return *inner, Ring(tuple(s.curve for s in bore.profile().segments()))
+
+    return replace(layer, lower=cut(layer.lower), upper=cut(layer.upper)) if flats else layer
+
+
+def lathe(
+    chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[complex, float]] = (), places: Sequence[float] = ()
+) -> Iterator[Layer]:
+    """The layers of half a section, whose lines are r + iz; round holes go through along the axis.
+
+    ``places``: heights at which layers end too.
+    """
+    levels = sorted({*(round(p.imag, 9) for edge in chain for p in edge), *(round(z, 9) for z in places)})
     for low, high in pairwise(levels):
         if high - low < _SAME:
             continue

@@ -6,8 +6,9 @@ into its cylinders.
 
 from __future__ import annotations
 
+import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 
 import numpy as np
@@ -19,7 +20,10 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Complex, Real
+from geometry.curves.hyperbola import Hyperbola
+from geometry.curves.line_arc import Line
 from geometry.plane.profile import Profile
+from geometry.solids.bores import FlatBore
 from geometry.solids.faced import FacedBody, FacedSolid, exact_body
 from geometry.solids.faces import (
     Circular,
@@ -33,7 +37,9 @@ from geometry.solids.faces import (
     Sphere,
     Spline,
     Straight,
+    Surface,
     Torus,
+    Use,
     loop_of,
     turned_over,
 )  # fmt: skip
@@ -77,6 +83,17 @@ class Piece(Record):
         """Whether it sweeps nothing."""
         return self.centre is None and self.start.real == self.end.real == 0
 
+    @property
+    def is_slanted(self) -> bool:
+        """Whether it sweeps a cone."""
+        way = self.end - self.start
+        return self.centre is None and way.real != 0 != way.imag
+
+    @property
+    def is_cylinder(self) -> bool:
+        """Whether it sweeps a cylinder that looks away from the axis."""
+        return self.centre is None and self.start.real == self.end.real and self.start.imag < self.end.imag
+
     def points(self, chord: float = 0.0) -> Complex:
         """Along it, (k,); ``chord``: what chords leave of an arc at most, mm, 0: in so many steps for all."""
         if self.centre is None:
@@ -101,7 +118,8 @@ class Hole(Record):
 class Pocket(Record):
     """A keyway in a cylinder from ``low`` to ``high``: its width, the distance of its floor from the axis, mm.
 
-    ``angle``: of its middle, rad; ``round_ends``: as an end mill leaves them.
+    ``angle``: of its middle, rad; ``round_ends``: as an end mill leaves them. A flat is a floor as wide as its chord,
+    which may run through a chamfer to the plane face at either end of its cylinder.
     """
 
     low: float
@@ -110,6 +128,12 @@ class Pocket(Record):
     floor: float
     angle: float
     round_ends: bool = True
+    is_flat: bool = False
+
+    def half_width(self, radius: float) -> float:
+        """Half of a flat's chord in a circle about the axis, mm; 0 of one that it only touches."""
+        square = radius**2 - self.floor**2
+        return math.sqrt(square) if square > _SAME * radius**2 else 0.0
 
 
 class Splined(Record):
@@ -161,6 +185,48 @@ class HalfSection(Record):
             own = (places.real == outer) & (spline.low <= places.imag) & (places.imag <= spline.high)
             if (places[~own].real <= inner).all():
                 return spline
+        return None
+
+    def run(self, flat: Pocket) -> tuple[Piece, ...]:
+        """What a flat cuts: its cylinder, and before and after that the cone of a chamfer that it reaches."""
+        pieces = self.pieces
+        k = next(k for k, p in enumerate(pieces) if p.is_cylinder and flat.floor < p.start.real
+                 and max(p.start.imag, flat.low) < min(p.end.imag, flat.high))  # fmt: skip
+        before, own, after = (pieces[j % len(pieces)] for j in (k - 1, k, k + 1))
+        first = (before,) if flat.low <= own.start.imag and before.is_slanted else ()
+        last = (after,) if flat.high >= own.end.imag and after.is_slanted else ()
+        return *first, own, *last
+
+    def flat_side(self, flat: Pocket) -> tuple[Line | Hyperbola, ...]:
+        """A side of a flat from its lower to its upper end, as seen from above it, z + iy."""
+        found: list[Line | Hyperbola] = []
+        for piece in self.run(flat):
+            low, high = (flat.half_width(p.real) for p in (piece.start, piece.end))
+            if piece.is_slanted:
+                found.append(_hyperbola(flat, piece, low, high))
+            else:
+                ends = max(flat.low, piece.start.imag), min(flat.high, piece.end.imag)
+                found.append(Line(complex(ends[0], low), complex(ends[1], high)))
+        return tuple(found)
+
+    def seen_flat(self) -> FlatBore | None:
+        """What flats leave of the greatest circle as it is seen along the axis; None where something stands beyond."""
+        lines = np.concatenate([np.column_stack([(p := piece.points())[:-1], p[1:]]) for piece in self.pieces])
+        levels = np.unique([*lines.imag.ravel(), *(z for p in self.pockets for z in (p.low, p.high))])
+        (first, last), outer = np.sort(lines.imag).T, self.radii()[1]
+        for one in (p for p in self.pockets if p.is_flat and math.hypot(p.floor, p.width / 2) > outer * (1 - _SAME)):
+            sides = [p.angle for p in self.pockets if p.is_flat and p.low == one.low]
+
+            def is_cut(z: float, floor: float, angle: float) -> bool:
+                return any(
+                    p.low < z < p.high and p.floor <= floor and math.cos(p.angle - angle) > 1 - _SAME
+                    for p in self.pockets if p.is_flat
+                )  # fmt: skip
+
+            beyond = lines.real.max(axis=1) > one.floor
+            middles = [float(z) for z in (levels[1:] + levels[:-1]) / 2 if np.any(beyond & (first < z) & (z < last))]
+            if all(is_cut(z, one.floor, angle) for z in middles for angle in sides):
+                return FlatBore(2 * outer, one.floor, len(sides), one.angle)
         return None
 
     def radii(self) -> tuple[float, float]:
@@ -326,22 +392,46 @@ def _check(pieces: Sequence[Piece]) -> None:
         raise ParameterError("points", None, "boundary_crosses_itself")
 
 
+def _fitted(curve: Callable[[Real], Real], off: Callable[[Real], Real], near: float) -> tuple[Real, Real, float]:
+    """A spline along a curve by shares of it, (n,) to (n, k): knots, poles and error, mm.
+
+    ``off``: how far points are off the surfaces that meet in it, mm.
+    """
+    for pieces in _PIECES:
+        knots = clamped(_DEGREE, np.linspace(0, 1, pieces + 1))
+        shares = greville(_DEGREE, knots)
+        poles = np.linalg.solve(basis_matrix(_DEGREE, knots, shares), curve(shares))
+        points = basis_matrix(_DEGREE, knots, np.linspace(0, 1, _CHECKS)) @ poles
+        error = _MARGIN * float(off(points).max())
+        if error <= near:
+            break
+    return knots, np.asarray(poles, dtype=float), error
+
+
 def _rim(half: float, radius: float) -> tuple[Real, Real, float]:
     """The curve in which half a cylinder meets a larger one that it stands across: knots, poles and error, mm.
 
     Poles (n, 3): along the larger one's circle, along its axis, and away from that.
     """
-    for pieces in _PIECES:
-        knots = clamped(_DEGREE, np.linspace(0, 1, pieces + 1))
-        turn = np.pi * greville(_DEGREE, knots)
-        places = half * np.column_stack([np.cos(turn), np.sin(turn)])
-        places = np.column_stack([places, np.sqrt(radius**2 - places[:, 0] ** 2)])
-        poles = np.linalg.solve(basis_matrix(_DEGREE, knots, greville(_DEGREE, knots)), places)
-        x, z, y = (basis_matrix(_DEGREE, knots, np.linspace(0, 1, _CHECKS)) @ poles).T
-        error = _MARGIN * float(np.maximum(np.abs(np.hypot(x, z) - half), np.abs(np.hypot(x, y) - radius)).max())
-        if error <= _NEAR * radius:
-            break
-    return knots, np.asarray(poles, dtype=float), error
+
+    def curve(shares: Real) -> Real:
+        along, up = half * np.cos(np.pi * shares), half * np.sin(np.pi * shares)
+        return np.column_stack([along, up, np.sqrt(radius**2 - along**2)])
+
+    def off(points: Real) -> Real:
+        x, z, y = points.T
+        return np.asarray(np.maximum(np.abs(np.hypot(x, z) - half), np.abs(np.hypot(x, y) - radius)))
+
+    return _fitted(curve, off, _NEAR * radius)
+
+
+def _hyperbola(flat: Pocket, piece: Piece, first: float, last: float) -> Hyperbola:
+    """The curve in which a flat cuts a cone, between places across it: along the axis, and across the flat."""
+    slope = (piece.end.imag - piece.start.imag) / (piece.end.real - piece.start.real)
+    centre = complex(piece.start.imag - slope * piece.start.real)
+    way = math.copysign(1.0, last - first)
+    ends = (way * math.asinh(across / flat.floor) for across in (first, last))
+    return Hyperbola(centre, slope * flat.floor, way * flat.floor, *ends)
 
 
 def turned_solid(section: HalfSection, seam: float = 0.0, tolerance: float = 1e-6) -> FacedSolid:
@@ -382,6 +472,30 @@ class _Level(Draft):
     loops: list[Loop] = field(default_factory=list)
 
 
+class _Rim(Draft):
+    """The circle of a corner of the section, from the seam on: arcs, and flats between their ends."""
+
+    vertex: Index
+    arcs: list[Index] = field(default_factory=list)
+    flats: list[tuple[Pocket, Index, Index]] = field(default_factory=list)
+
+    def around(self, over: Callable[[Pocket, Index, Index], list[Use]]) -> list[Use]:
+        """Its arcs, and what bridges flats from end to end."""
+        found = [(arc, True) for arc in self.arcs[:1]]
+        for flat, arc in zip(self.flats, self.arcs[1:], strict=True):
+            found += [*over(*flat), (arc, True)]
+        return found
+
+
+class _Flat(Draft):
+    """The edges about a flat: those of its left and right sides from below, and those across its ends."""
+
+    left: list[Index] = field(default_factory=list)
+    right: list[Index] = field(default_factory=list)
+    low: list[Use] = field(default_factory=list)
+    high: list[Use] = field(default_factory=list)
+
+
 class _Turned(RingBuilder):
     """Builds a turned solid."""
 
@@ -391,8 +505,15 @@ class _Turned(RingBuilder):
         self.rings: dict[complex, Ring] = {}
         self.ahead = np.array([[math.cos(seam), math.sin(seam), 0.0]])
         self.sideways = np.cross(self.ahead, UP)
-        self.known: dict[complex, tuple[Index, Index | None]] = {}
+        self.known: dict[complex, _Rim] = {}
         self.levels: list[_Level] = []
+        self.flats = {p: _Flat() for p in section.pockets if p.is_flat}
+        self.cut: dict[complex, list[Pocket]] = {}
+        for flat in sorted(self.flats, key=lambda p: (p.angle - seam) % math.tau):
+            run = section.run(flat)
+            for at in (run[0].start, *(piece.end for piece in run)):
+                if flat.low <= at.imag <= flat.high and at.real >= flat.floor * (1 - _SAME):
+                    self.cut.setdefault(at, []).append(flat)
 
     def point(self, at: complex) -> Index:
         """A point of the half plane of the seam."""
@@ -401,15 +522,40 @@ class _Turned(RingBuilder):
         plane = at.real * (self.ahead[0, 0] + 1j * self.ahead[0, 1])
         return self.add_points(np.array([plane]), at.imag)
 
-    def corner(self, at: complex) -> tuple[Index, Index | None]:
-        """The vertex of a corner of the section, and its circle unless it stands on the axis."""
+    def rim(self, at: complex) -> _Rim:
+        """The circle of a corner of the section, none of one on the axis, with a vertex at the seam."""
         if at not in self.known:
-            vertex = self.add_vertices(self.point(at))
-            circle = None
+            rim = self.known[at] = _Rim(self.add_vertices(self.point(at)))
+            last = rim.vertex
             if at.real > 0:
-                circle = self.add_edges(vertex, vertex, Circular(self.frame_at(at.imag), at.real))
-            self.known[at] = vertex, circle
+                circle = Circular(self.frame_at(at.imag), at.real)
+                for flat in self.cut.get(at, ()):
+                    first, after = self.ends(flat, at)
+                    rim.arcs.append(self.add_edges(last, first, circle))
+                    rim.flats.append((flat, first, after))
+                    last = after
+                rim.arcs.append(self.add_edges(last, rim.vertex, circle))
         return self.known[at]
+
+    def ends(self, flat: Pocket, at: complex) -> tuple[Index, Index]:
+        """The vertices where a flat ends on the circle of a place of the section, one where it only touches it."""
+        half = flat.half_width(at.real)
+        first, after = (cmath.rect(1.0, flat.angle) * complex(flat.floor, side * half) for side in (-1, 1))
+        vertex = self.add_vertices(self.add_points(np.array([first]), at.imag))
+        return vertex, self.add_vertices(self.add_points(np.array([after]), at.imag)) if half else vertex
+
+    def chord(self, flat: Pocket, first: Index, after: Index) -> list[Use]:
+        """The edge across an end of a flat in a plane, if it is no point."""
+        if first is after:
+            return []
+        found = [(self.add_edges(first, after, Straight(_out_and_across(flat)[1])), True)]
+        height = self.place(first)[0, 2]
+        made = self.flats[flat]
+        if height - flat.low < flat.high - height:
+            made.low = found
+        else:
+            made.high = found
+        return found
 
     def teeth(self, spline: Splined) -> None:
         """The walls of a spline between its rings."""
@@ -432,19 +578,111 @@ class _Turned(RingBuilder):
             for at, is_outer in ((piece.start, up), (piece.end, not up)):
                 if at in self.rings:
                     level.loops.insert(0 if is_outer else 1, self.rings[at].loop(forwards=is_outer == up))
-                elif at.real and (circle := self.corner(at)[1]) is not None:
-                    level.loops.insert(0 if is_outer else 1, loop_of([(circle, is_outer == up)]))
+                elif at.real:
+                    around = self.rim(at).around(self.chord)
+                    level.loops.insert(0 if is_outer else 1, loop_of(around if is_outer == up else turned_over(around)))
             self.levels.append(level)
             return
-        (first, low), (last, high) = self.corner(piece.start), self.corner(piece.end)
-        seam = self.add_edges(first, last, self._seam(piece))
-        edges = [(low, True), (seam, True), (high, False), (seam, False)]
-        loops = [loop_of([(e, way) for e, way in edges if e is not None])]
+        low, high = self.rim(piece.start), self.rim(piece.end)
         surface, along = self._surface(piece)
-        if isinstance(surface, Cylinder):
-            low_z, high_z = sorted((piece.start.imag, piece.end.imag))
-            loops += [self.pocket(p, surface.radius) for p in self.section.pockets if along and low_z < p.low < high_z]
-        self.faces.append(Faces(surface, tuple(loops), along))
+        amid = [
+            p
+            for p in self.section.pockets
+            if piece.is_cylinder and piece.start.imag < p.low and p.high < piece.end.imag
+        ]
+        holes = [(p, self.island(p, piece) if p.is_flat else self.pocket(p, piece.start.real)) for p in amid]
+        through = [flat for flat, *_ in low.flats]
+        if through and through == [flat for flat, *_ in high.flats]:
+            self._between_flats(piece, low, high, surface, holes)
+            return
+        seam = self.add_edges(low.vertex, high.vertex, self._seam(piece))
+        below = low.around(partial(self.notch, piece, up=True))
+        above = high.around(partial(self.notch, piece, up=False))
+        around = [*below, (seam, True), *turned_over(above), (seam, False)]
+        self.faces.append(Faces(surface, (loop_of(around), *(loop for _, loop in holes)), along))
+
+    def _between_flats(
+        self, piece: Piece, low: _Rim, high: _Rim, surface: Surface, holes: Sequence[tuple[Pocket, Loop]]
+    ) -> None:
+        """The faces of what flats cut from end to end, each from a flat to the next one."""
+        sides = [
+            self.sides(flat, piece, below, above)
+            for (flat, *below), (_, *above) in zip(low.flats, high.flats, strict=True)
+        ]
+        count = len(sides)
+        for k in range(count):
+            begin, end = low.flats[k][0].angle, low.flats[(k + 1) % count][0].angle
+            wide = (end - begin) % math.tau or math.tau
+            below, above = (
+                [(arc, True) for arc in ([*rim.arcs, rim.arcs[0]])[k + 1 : k + 2 + (k + 1 == count)]]
+                for rim in (low, high)
+            )
+            around = [*below, (sides[(k + 1) % count][0], True), *turned_over(above), (sides[k][1], False)]
+            own = [loop for p, loop in holes if (p.angle - begin) % math.tau < wide]
+            self.faces.append(Faces(surface, (loop_of(around), *own)))
+
+    def sides(self, flat: Pocket, piece: Piece, low: Sequence[Index], high: Sequence[Index]) -> tuple[Index, Index]:
+        """Both sides of a flat along a piece, from its ends below to those above."""
+        made = self.flats[flat]
+        found = []
+        for one, two, side in zip(low, high, (-1, 1), strict=True):
+            edge = (
+                self.add_edges(one, two, Straight(UP)) if piece.is_cylinder else self._hyperbola(flat, piece, one, two)
+            )
+            (made.left if side < 0 else made.right).append(edge)
+            found.append(edge)
+        return found[0], found[1]
+
+    def notch(self, piece: Piece, flat: Pocket, first: Index, after: Index, *, up: bool) -> list[Use]:
+        """The edges about a flat that ends amid a piece, from end to end of it on its rim; ``up``: on the lower one."""
+        if not piece.is_cylinder:
+            arch = [(self._hyperbola(flat, piece, first, after), True)]
+            made = self.flats[flat]
+            if up:
+                made.high = arch
+            else:
+                made.low = arch
+            return arch
+        ends, arc = self.step(flat, piece, up=not up)
+        left, right = self.sides(flat, piece, *(((first, after), ends) if up else (ends, (first, after))))
+        return [(left, up), (arc, True), (right, not up)]
+
+    def island(self, flat: Pocket, piece: Piece) -> Loop:
+        """The loop about a flat both of whose ends lie amid a cylinder."""
+        (low, below), (high, above) = (self.step(flat, piece, up=up) for up in (True, False))
+        left, right = self.sides(flat, piece, low, high)
+        return loop_of(turned_over([(below, True), (right, True), (above, False), (left, False)]))
+
+    def step(self, flat: Pocket, piece: Piece, *, up: bool) -> tuple[tuple[Index, Index], Index]:
+        """The plane face at an end of a flat amid a cylinder: the flat's ends there, and the arc between them."""
+        z = flat.low if up else flat.high
+        ends = self.ends(flat, complex(piece.start.real, z))
+        arc = self.add_edges(*ends, Circular(self.frame_at(z), piece.start.real))
+        around = [(arc, True), *turned_over(self.chord(flat, *ends))]
+        self.cap(z, [loop_of(around if up else turned_over(around))], up=up)
+        return ends, arc
+
+    def _hyperbola(self, flat: Pocket, piece: Piece, one: Index, two: Index) -> Index:
+        """The edge in which a flat cuts a cone, between two vertices."""
+        out, across = _out_and_across(flat)
+        first, last = ((self.place(v) @ across[0])[0] for v in (one, two))
+        curve = _hyperbola(flat, piece, first, last)
+
+        def spatial(shares: Real) -> Real:
+            found = curve.point(curve.start + (curve.end - curve.start) * shares)
+            return np.column_stack([found.real, found.imag])
+
+        def off(points: Real) -> Real:
+            z, y = points.T
+            return np.abs(curve.centre.real + curve.along / flat.floor * np.hypot(flat.floor, y) - z)
+
+        knots, poles, error = _fitted(spatial, off, _NEAR * max(piece.start.real, piece.end.real))
+        self.error = max(self.error, error)
+        z, y = poles[1:-1].T
+        places = flat.floor * out[0] + y[:, None] * across
+        inner = self.add_points(places[:, 0] + 1j * places[:, 1], z)
+        points = np.concatenate([self.vertex_point(one[0]), inner, self.vertex_point(two[0])])
+        return self.add_edges(one, two, Spline(_DEGREE, knots, points[None]))
 
     def _seam(self, piece: Piece) -> Straight | Circular:
         if piece.centre is None:
@@ -483,8 +721,7 @@ class _Turned(RingBuilder):
 
     def pocket(self, pocket: Pocket, radius: float) -> Loop:
         """The faces of a pocket; the loop of its rim on the cylinder."""
-        out = np.array([[math.cos(pocket.angle), math.sin(pocket.angle), 0.0]])
-        across = np.cross(UP, out)
+        out, across = _out_and_across(pocket)
         half = pocket.width / 2
         lift = math.sqrt(radius**2 - half**2)
         inset = half if pocket.round_ends else 0.0
@@ -536,3 +773,15 @@ class _Turned(RingBuilder):
         """The plane faces with the holes in them."""
         for level in self.levels:
             self.cap(level.z, level.loops, up=level.up)
+        for flat, made in self.flats.items():
+            right, left = ([(edge, True) for edge in side] for side in (made.right, made.left))
+            around = [*made.low, *right, *turned_over(made.high), *turned_over(left)]
+            out, _ = _out_and_across(flat)
+            origin = self.add_points(np.array([cmath.rect(flat.floor, flat.angle)]), flat.low)
+            self.bounded(Plane(Frame(origin, out, UP)), around)
+
+
+def _out_and_across(pocket: Pocket) -> tuple[Real, Real]:
+    """From the axis to the middle of a pocket, and across it, (1, 3)."""
+    out = np.array([[math.cos(pocket.angle), math.sin(pocket.angle), 0.0]])
+    return out, np.cross(UP, out)

@@ -7,7 +7,7 @@ import math
 import re
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, TypeVar
 
 from msgspec import Meta, Struct, field
 
@@ -26,6 +26,7 @@ from parts.keys.threads import Thread
 if TYPE_CHECKING:
     from geometry.curves.curve import Complex
     from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
     from geometry.solids.faced import FacedBody
     from geometry.solids.metric_threads import MetricThread
     from geometry.solids.sketch import Sketch
@@ -100,6 +101,51 @@ class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
     ends: Annotated[Literal["round", "square"], Meta(description="as an end mill or a disk leaves them")] = "round"
 
 
+_FLATS_LENGTH = part_mm("length from that end; default: the whole step", above=0, example=10.0)
+_END = Meta(description="of the step, from which the flats run")
+
+
+class FlatsTable(Struct, forbid_unknown_fields=True, kw_only=True, tag_field="shape"):
+    """Flats of a step."""
+
+    length: Annotated[float, _FLATS_LENGTH] | None = None
+    end: Annotated[Literal["lower", "upper"], _END] = "lower"
+    angle_deg: Annotated[float, degrees("direction of the first one", least=-360, most=360)] = 90.0
+    count: ClassVar[int]
+    size: ClassVar[str]
+
+    def floor(self, diameter: float) -> float:
+        """From the axis to a flat, mm."""
+        one = self.told(diameter, 1.0) - (none := self.told(diameter, 0.0))
+        return float((getattr(self, self.size) - none) / one)
+
+    def told(self, diameter: float, floor: float) -> float:
+        """What tells flats so far from the axis, mm."""
+        raise NotImplementedError
+
+
+class FlatTable(FlatsTable, tag="D"):
+    """One flat, as a D bore takes it."""
+
+    flat: Annotated[float, part_mm("from the flat to the opposite side", above=0, example=4.5)]
+    count, size = 1, "flat"
+
+    def told(self, diameter: float, floor: float) -> float:
+        """See FlatsTable."""
+        return floor + diameter / 2
+
+
+class DoubleFlatTable(FlatsTable, tag="double_D"):
+    """Two opposite flats, as a double D bore takes them."""
+
+    across_flats: Annotated[float, part_mm("from a flat to the opposite one", above=0, example=4.0)]
+    count, size = 2, "across_flats"
+
+    def told(self, diameter: float, floor: float) -> float:
+        """See FlatsTable."""
+        return 2 * floor
+
+
 _GROOVES = Meta(max_length=100, examples=[[{"at": 2.0, "width": 1.1, "diameter": 11.5}]])
 _KEYWAYS = Meta(max_length=100, examples=[[{"at": 4.0, "length": 12.0}]])
 
@@ -114,6 +160,7 @@ class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     grooves: Annotated[list[GrooveTable], _GROOVES] = field(default_factory=list)
     keyways: Annotated[list[ShaftKeywayTable], _KEYWAYS] = field(default_factory=list)
     spline: SplineTable | None = None
+    flats: FlatTable | DoubleFlatTable | None = None
     thread: Thread | None = None
 
 
@@ -134,7 +181,12 @@ _STEPS = [{"diameter": 12.0, "length": 20.0, "chamfer": 0.5}, {"diameter": 20.0,
 _WHOLE = [
     {"diameter": 12.0, "length": 10.0, "chamfer": 1.5, "thread": "M12"},
     {"diameter": 17.0, "length": 22.0, "chamfer": 1.0, "fillet": 0.8, "keyways": [{"at": 3.0, "length": 16.0}]},
-    {"diameter": 25.0, "length": 15.0, "grooves": [{"at": 6.0, "width": 1.3, "diameter": 23.9}]},
+    {
+        "diameter": 25.0,
+        "length": 15.0,
+        "grooves": [{"at": 6.0, "width": 1.3, "diameter": 23.9}],
+        "flats": {"shape": "double_D", "across_flats": 22.0, "length": 5.0},
+    },
     {"diameter": 20.0, "length": 30.0, "spline": {"shape": "spline", "size": "6x16x20"}},
 ]
 
@@ -145,7 +197,9 @@ class ShaftSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="shaft"):
     """Keys of ``shaft``."""
 
     steps: Annotated[
-        list[StepTable], _SHAFT_STEPS, start(_STEPS, (_WHOLE, N_("a thread, keyways, a fillet, a groove, a spline")))
+        list[StepTable],
+        _SHAFT_STEPS,
+        start(_STEPS, (_WHOLE, N_("a thread, keyways, a fillet, a groove, flats, a spline"))),
     ]
     bore_diameter: BoreDiameter = 0.0
     centre_holes: CentreHolesTable | None = None
@@ -164,7 +218,7 @@ class _Turned(Kind[K, "HalfSection"]):
         from geometry.plane.profile import Label, Region, circle
 
         inner, outer = thing.radii()
-        spline = thing.seen_spline()
+        spline, flat = thing.seen_spline(), thing.seen_flat()
         through = [(0j, inner)] * (inner > 0) + [(hole.centre, hole.radius) for hole in thing.holes]
 
         def build(by: float) -> Region:
@@ -176,7 +230,9 @@ class _Turned(Kind[K, "HalfSection"]):
             holes = tuple(
                 circle(radius - by, Label.HOLE if at else Label.BORE, hole=True, centre=at) for at, radius in through
             )
-            return Region(circle(outer + by, Label.BODY) if spline is None else spline.outline(by), holes)
+            if spline is not None:
+                return Region(spline.outline(by), holes)
+            return Region(circle(outer + by, Label.BODY) if flat is None else _turned_about(flat.profile(-by)), holes)
 
         return moved_region(build, offset)
 
@@ -235,12 +291,31 @@ def _remarks(keys: ShaftSpec) -> Iterator[Finding]:
             yield Finding("chamfer_at_no_end", float(k), step.chamfer)
 
 
+def _turned_about(profile: Profile) -> Profile:
+    """The same boundary, run through the other way."""
+    from geometry.plane.profile import Profile, Segment
+
+    return Profile(tuple(Segment(s.curve.reversed(), s.label) for s in reversed([*profile.segments()])))
+
+
 def _seam(pockets: tuple[Pocket, ...]) -> float:
-    """An angle away from all pockets, rad."""
+    """An angle away from all pockets, rad.
+
+    Raises
+    ------
+    ParameterError
+        ``steps``: flats take all sides.
+    """
     if not pockets:
         return 0.0
-    turns = [math.tau * k / 360 for k in range(360)]
-    return max(turns, key=lambda turn: min(abs(math.remainder(turn - p.angle, math.tau)) for p in pockets))
+
+    def free(turn: float) -> float:
+        return min(abs(math.remainder(turn - p.angle, math.tau)) - math.atan2(p.width / 2, p.floor) for p in pockets)
+
+    found = max((math.tau * k / 360 for k in range(360)), key=free)
+    if free(found) <= 0 and any(p.is_flat for p in pockets):
+        raise ParameterError("steps", None, "flats_all_round")
+    return found
 
 
 class Turned(_Turned[TurnedSpec]):
@@ -289,7 +364,9 @@ class Shaft(_Turned[ShaftSpec]):
             place = re.match(r"points\[(\d+)\]", refusal.name)
             number = int(place[1]) if place else 1
             raise refusal.renamed(owners[number - 1]) from refusal
-        return HalfSection(pieces, (), tuple(_pockets(keys)), splines)
+        pockets = tuple(_pockets(keys))
+        _seam(pockets)
+        return HalfSection(pieces, (), pockets, splines)
 
 
 def _groove_beyond(name: str, groove: GrooveTable, place: float, room: float, length: float) -> ParameterError:
@@ -410,7 +487,7 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
         if abs(2 * form.outer - step.diameter) > _SAME:
             cure = Nearest(round(2 * form.outer, 9))
             raise ParameterError(f"{name}.diameter", step.diameter, "not_over_spline", cure)
-        for key in ("chamfer", "fillet", "grooves", "keyways", "thread"):
+        for key in ("chamfer", "fillet", "grooves", "keyways", "flats", "thread"):
             if given := getattr(step, key):
                 raise ParameterError(f"{name}.{key}", given, "beside_spline", Nearest(None))
         root = form.inner - made.clearance
@@ -525,7 +602,7 @@ def _end(keys: ShaftSpec) -> Iterator[complex]:
 
 
 def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
-    """The keyways of all steps.
+    """The flats and the keyways of all steps.
 
     Raises
     ------
@@ -537,7 +614,8 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
 
     z, whole = 0.0, sum(step.length for step in keys.steps)
     for k, step in enumerate(keys.steps, 1):
-        made: list[Pocket] = []
+        made = [*_flats(keys, k, z)]
+        yield from made
         for number, way in enumerate(step.keyways, 1):
             name, radius = f"steps[{k}].keyways[{number}]", step.diameter / 2
             width, depth = way.width, way.depth
@@ -572,6 +650,61 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
             made.append(found)
             yield found
         z += step.length
+
+
+def _flats(keys: ShaftSpec, number: int, z: float) -> Iterator[Pocket]:
+    """The flats of a step that begins at height z.
+
+    Raises
+    ------
+    ParameterError
+        They cut no step or its hole, leave it, or meet what else is cut from it or stands beside it.
+    """
+    from geometry.solids.turned import Pocket
+
+    step, name = keys.steps[number - 1], f"steps[{number}].flats"
+    if (flats := step.flats) is None:
+        return
+    radius, floor, whole = step.diameter / 2, flats.floor(step.diameter), sum(s.length for s in keys.steps)
+    length = step.length if flats.length is None else flats.length
+    ends = (0.0, length) if flats.end == "lower" else (step.length - length, step.length)
+    inside = max(keys.bore_diameter / 2, _inside(keys, max(min(z + ends[0], whole - z - ends[1]), 0.0)))
+    if not inside < floor < radius:
+        code = "flat_outside_step" if floor >= radius else "flat_into_hole" if inside else "flat_beyond_axis"
+        given, most, least = (getattr(flats, flats.size), *(flats.told(step.diameter, at) for at in (radius, inside)))
+        cure = most_of(most, given) if floor >= radius else least_of(least, given)
+        raise ParameterError(f"{name}.{flats.size}", given, code, cure)
+    beside = [keys.steps[k] if 0 <= k < len(keys.steps) else None for k in (number - 2, number)]
+    # at either end a chamfer of what stands out, or a fillet of what does not
+    thicker = [other is not None and _radius(other) > radius for other in beside]
+    edges = [step.fillet if is_thicker else step.chamfer if other is None or _radius(other) < radius else 0.0
+             for is_thicker, other in zip(thicker, beside, strict=True)]  # fmt: skip
+    own, far = edges if flats.end == "lower" else edges[::-1]
+    grooves = [g.at if flats.end == "lower" else step.length - g.at - g.width for g in step.grooves]
+    room = min([step.length - far, *grooves])
+    may_be_whole = not grooves and not (thicker[flats.end == "lower"] and far) and step.length > sum(edges)
+    if not (own < length < room or (length == step.length and may_be_whole)):
+        margin = 1e-3 * MARGIN * step.length
+        cure = limit(min(max(length, own + margin), room - margin), length, digits=6)
+        if length > step.length and may_be_whole:
+            cure = Nearest(step.length, "at_most")
+        fits = own + margin < room - margin
+        raise ParameterError(f"{name}.length", length, "flats_beyond_step", cure if fits else None, length=step.length)
+    for k, other, reaches in zip((-1, 1), beside, (ends[0] <= 0, ends[1] >= step.length), strict=True):
+        if not reaches or other is None:
+            continue
+        if step.fillet and _radius(other) > radius:
+            raise ParameterError(f"steps[{number}].fillet", step.fillet, "fillet_beside_flats", Nearest(0.0))
+        if _radius(other) == radius:
+            if other.flats and (other.flats.length in (None, other.length) or (other.flats.end == "upper") == (k < 0)):
+                raise ParameterError(f"steps[{number + k}].flats", None, "flats_meet")
+        elif not (_radius(other) + other.fillet < floor or _radius(other) - other.chamfer > radius):
+            told = {"floor": 2 * floor, "diameter": step.diameter}
+            raise ParameterError(f"steps[{number + k}].diameter", other.diameter, "ends_amid_flats", **told)
+    width = 2 * math.sqrt((radius - floor) * (radius + floor))
+    for turn in range(flats.count):
+        angle = math.radians(flats.angle_deg) + math.pi * turn
+        yield Pocket(z + ends[0], z + ends[1], width, floor, angle, round_ends=False, is_flat=True)
 
 
 def _keyway_beyond(name: str, way: ShaftKeywayTable, cuts: list[tuple[float, float]], length: float) -> ParameterError:

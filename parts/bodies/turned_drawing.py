@@ -21,6 +21,7 @@ from parts.base.part import Part
 from parts.base.texts import MINUS
 from parts.bodies.details import detailed
 from parts.bodies.turned import ShaftSpec, Threaded, TurnedSpec, threaded
+from parts.drawing.canvas import Box
 from parts.drawing.directions import directions, spline_data, tip_zone
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, block, closed, outer_of, outlined, seen_circles, seen_edges
@@ -93,7 +94,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     bores = _spline_bores(subject)
     for cut, spline, bore in zip(found[0].cuts[len(_planes(half)) :], half.splines, bores, strict=True):
         found.append(_spline_section(half, spline, bore, f"{cut.letter}-{cut.letter}", subject))
-    square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
+    square = [c.letter for c in found[0].cuts if not all(p.round_ends or p.is_flat for p in _crossed(half, c.at))]
     more = [subject.words("square_keyways", letter=letter) for letter in square]
     more += [line for bore in bores for line in spline_data(bore, subject, is_shaft=True)]
     return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
@@ -168,8 +169,9 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     inner = [curve for curve in loop if curve not in outer]
     listed = listed_corners(loop, lambda curve: curve not in inner)
     # hollow shafts are cut through their first keyway
-    notched = [p for p in half.pockets if cut and abs(_across(half, p).real) < _SAME]
-    upper, lower = (_notched(outer, [p for p in notched if _across(half, p).imag * way > 0]) for way in (1, -1))
+    notched = [p for p in half.pockets if cut and not p.is_flat and abs(_across(half, p).real) < _SAME]
+    lowered = [*notched, *(p for p in half.pockets if p.is_flat)]
+    upper, lower = (_notched(half, outer, lowered, way) for way in (1j, -1j))
     for side in (upper, below(lower)):
         strokes += outlined(side)
     for pocket in notched:
@@ -177,8 +179,8 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
         strokes.append((VISIBLE, Line(complex(pocket.low, rim), complex(pocket.high, rim))))
     for side in (inner, below(inner)):
         strokes += [(HIDDEN, curve) for _, curve in outlined(side)]
-    for edge in seen_edges(loop, cut=cut):
-        strokes += [(VISIBLE, edge), (VISIBLE, edge.mirrored())]
+    for edge in (e for half_edge in seen_edges(loop, cut=cut) for e in (half_edge, half_edge.mirrored())):
+        strokes += [(VISIBLE, left) for left in _left_by_flats(half, edge, cut=cut)]
     low, high = half.heights()
     axes = [Line(complex(low), complex(high))]
     wishes = subject.wishes
@@ -191,15 +193,19 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     told = turned_sizes(loop, fits, subject.language, lambda curve: curve not in inner)
     # what a table has instead of diameters tells no thread
     sizes = [*told.sizes, *(_thread_size(one, k) for k, one in enumerate(own, 1) if listed and one.before != "Ø")]
-    shown = dict[tuple[float, float], int]()
+    shown, corners = dict[tuple[float, float, bool], int](), {round(start_point(curve).real, 9) for curve in outer}
     for pocket in half.pockets:
         if pocket not in notched:
-            strokes += _seen_slot(half, pocket, cut=cut)
-        shown.setdefault((round(pocket.low, 9), round(pocket.high, 9)), len(shown) + 1)
-    for (first, last), k in shown.items():
-        ends = complex(first), complex(last)
-        sizes.append(Size(f"keyway.{k}.length", *ends, "above"))
-        sizes.append(Size(f"keyway.{k}.at", complex(low), ends[0], "above"))
+            strokes += _seen_flat(half, pocket, cut=cut) if pocket.is_flat else _seen_slot(half, pocket, cut=cut)
+        shown.setdefault((round(pocket.low, 9), round(pocket.high, 9), pocket.is_flat), len(shown) + 1)
+    for (first, last, is_flat), k in shown.items():
+        ends, name = (complex(first), complex(last)), f"{'flat' if is_flat else 'keyway'}.{k}"
+        # what ends where a step does is told from there
+        told_ends = {first, last} & corners
+        if len(told_ends) < 2:
+            sizes.append(Size(f"{name}.length", *ends, "above"))
+        if not told_ends:
+            sizes.append(Size(f"{name}.at", complex(low), ends[0], "above"))
     drilled: list[Loop] = []
     for radius in sorted({round(abs(hole.centre), 9) for hole in _circled(half, holes)}):
         found = [hole for hole in _circled(half, holes) if abs(abs(hole.centre) - radius) < _SAME * 10]
@@ -411,19 +417,112 @@ def _radius(half: HalfSection, pocket: Pocket) -> float:
                and min(p.start.imag, p.end.imag) <= middle <= max(p.start.imag, p.end.imag))  # fmt: skip
 
 
-def _notched(loop: Loop, pockets: Sequence[Pocket]) -> list[Line | Arc]:
-    """A loop with the keyways that lie in its plane."""
-    found = list(loop)
+def _notched(half: HalfSection, loop: Loop, pockets: Sequence[Pocket], way: complex) -> Loop:
+    """A loop with the keyways that lie in its plane, and as far as flats leave it, which look to its side."""
     for pocket in pockets:
-        k, wall = max(
-            ((k, c) for k, c in enumerate(found) if isinstance(c, Line) and abs(c.start.imag - c.end.imag) < _SAME
-             and min(c.start.real, c.end.real) < pocket.low and pocket.high < max(c.start.real, c.end.real)),
-            key=lambda pair: pair[1].start.imag,
-        )  # fmt: skip
-        top, ends = wall.start.imag, sorted((pocket.low, pocket.high), reverse=wall.start.real > wall.end.real)
-        places = [(ends[0], top), (ends[0], pocket.floor), (ends[1], pocket.floor), (ends[1], top)]
-        found[k : k + 1] = [Line(a, b) for a, b in pairwise([wall.start, *(complex(*p) for p in places), wall.end])]
-    return found
+        lean = math.acos(max(-1.0, min(1.0, (_across(half, pocket) * way.conjugate()).real)))
+        radius = _radius(half, pocket)
+        if not pocket.is_flat and lean < _SAME**0.5:
+            depth, inner = pocket.floor, [(pocket.low, pocket.floor), (pocket.high, pocket.floor)]
+        elif pocket.is_flat and math.cos(lean) * radius > pocket.floor:
+            depth, run = pocket.floor / math.cos(lean), half.run(pocket)
+            places = [complex(min(max(p.imag, pocket.low), pocket.high), p.real)
+                      for p in (run[0].start, *(piece.end for piece in run)) if p.real > depth]  # fmt: skip
+            inner = [
+                (p.real, pocket.floor * math.cos(lean) + pocket.half_width(p.imag) * math.sin(lean)) for p in places
+            ]
+        else:
+            continue
+        loop = _cut_away(loop, Box(pocket.low, depth, pocket.high, radius), [complex(*p) for p in inner])
+    return loop
+
+
+def _cut_away(loop: Loop, box: Box, inner: Sequence[complex]) -> Loop:
+    """A loop whose lines in a box are replaced by lines along so many places, from left to right."""
+    kept: list[Line | Arc | None] = []
+    size = max(abs(box.right), abs(box.high))
+    for curve in loop:
+        first, last = _in_box(curve, box, _SAME * size) if isinstance(curve, Line) else (1.0, 0.0)
+        if not isinstance(curve, Line) or last <= first:
+            kept.append(curve)
+            continue
+        way = curve.end - curve.start
+        before, after = curve.start + first * way, curve.start + last * way
+        kept += [Line(curve.start, before)] if first * abs(way) > _SAME * size else []
+        kept.append(None)
+        kept += [Line(after, curve.end)] if (1 - last) * abs(way) > _SAME * size else []
+    if None not in kept:
+        return loop
+    # from behind what is cut away round to it
+    begin = max(k for k, one in enumerate(kept) if one is None and kept[(k + 1) % len(kept)] is not None) + 1
+    left = [curve for curve in [*kept[begin:], *kept[:begin]] if curve is not None]
+    start, end = end_point(left[-1]), start_point(left[0])
+    places = [start, *(inner if start.real < end.real else inner[::-1]), end]
+    return (*left, *(Line(a, b) for a, b in pairwise(places) if abs(b - a) > _SAME * size))
+
+
+def _in_box(line: Line, box: Box, beside: float) -> tuple[float, float]:
+    """From which share of a line to which it lies in a box or on its boundary."""
+    way, low, high = line.end - line.start, 0.0, 1.0
+    for at, step, least, most in (
+        (line.start.real, way.real, box.left, box.right), (line.start.imag, way.imag, box.low, box.high),
+    ):  # fmt: skip
+        if abs(step) <= beside:
+            if not least - beside <= at <= most + beside:
+                return 1.0, 0.0
+            continue
+        first, last = sorted(((least - at) / step, (most - at) / step))
+        low, high = max(low, first), min(high, last)
+    return (low, high) if (high - low) * abs(way) > beside else (1.0, 0.0)
+
+
+def _seen_flat(half: HalfSection, flat: Pocket, *, cut: bool) -> Iterator[Stroke]:
+    """A flat in the long view, with the thin diagonals of what is plane (GOST 2.305); the outline shows it edge on."""
+    way = _across(half, flat)
+    is_seen = way.real > _SAME and not cut
+    twins = (
+        _across(half, p)
+        for p in half.pockets
+        if p.is_flat and (p.low, p.high, p.floor) == (flat.low, flat.high, flat.floor)
+    )
+    if abs(way.real) < _SAME or (
+        not is_seen and not cut and any(abs(other - way.conjugate() * -1) < _SAME for other in twins)
+    ):
+        return
+
+    def placed(point: complex, side: int) -> complex:
+        return complex(point.real, way.imag * flat.floor + side * way.real * point.imag)
+
+    layer, sides = VISIBLE if is_seen else HIDDEN, half.flat_side(flat)
+    for side in (1, -1):
+        for curve in sides:
+            if isinstance(curve, Line):
+                yield layer, Line(placed(curve.start, side), placed(curve.end, side))
+                if is_seen:
+                    yield THIN, Line(placed(curve.start, side), placed(curve.end, -side))
+            else:
+                yield layer, replace(curve, centre=placed(curve.centre, 1), across=side * way.real * curve.across)
+    for end in (start_point(sides[0]), end_point(sides[-1])):
+        if end.imag > _SAME:
+            yield layer, Line(placed(end, 1), placed(end, -1))
+
+
+def _left_by_flats(half: HalfSection, edge: Line, *, cut: bool) -> Iterator[Line]:
+    """What flats leave of an edge across the axis."""
+    spans = [tuple(sorted((edge.start.imag, edge.end.imag)))]
+    for flat in half.pockets:
+        way, at = _across(half, flat), edge.start.real
+        if not flat.is_flat or not flat.low + _SAME < at < flat.high - _SAME or (cut and abs(way.imag) < _SAME):
+            continue
+        radius = max(p.real for piece in half.run(flat) for p in (piece.start, piece.end) if abs(p.imag - at) < _SAME)
+        corners = sorted(way.imag * flat.floor + side * way.real * flat.half_width(radius) for side in (1, -1))
+        if way.real < _SAME and abs(way.imag) > _SAME:
+            corners = [corners[0], math.inf] if way.imag > 0 else [-math.inf, corners[1]]
+        elif way.real < 0:
+            continue
+        gaps = [(-math.inf, corners[0]), (corners[1], math.inf)]
+        spans = [(max(a, c), min(b, d)) for a, b in spans for c, d in gaps if min(b, d) - max(a, c) > _SAME]
+    yield from (Line(complex(edge.start.real, a), complex(edge.start.real, b)) for a, b in spans)
 
 
 def _seen_slot(half: HalfSection, pocket: Pocket, *, cut: bool) -> list[Stroke]:
@@ -531,6 +630,8 @@ def _keyway(
         way, w = turn * _across(half, pocket), pocket.width / 2
         rim = math.sqrt(radius * radius - w * w)
         walls = [complex(rim, -w), complex(pocket.floor, -w), complex(pocket.floor, w), complex(rim, w)]
+        if pocket.is_flat:
+            walls = walls[1:3]
         if _upright(way):
             way = complex(round(way.real), round(way.imag))
         pieces.append((cmath.phase(way) % math.tau, [p * way for p in walls]))
@@ -538,11 +639,18 @@ def _keyway(
             continue
         across, along = _SIDES[way]
         number = half.pockets.index(pocket) + 1
-        faced = any(abs(turn * _across(half, p) + way) < _SAME for p in here)
+        facing = [p for p in here if abs(turn * _across(half, p) + way) < _SAME]
+        if pocket.is_flat:
+            # of two of them the distance, of one that to the other side
+            if not any(p.is_flat and half.pockets.index(p) + 1 < number for p in facing):
+                other = -(pocket.floor if any(p.is_flat for p in facing) else radius)
+                sizes.append(Size(f"flat.{number}.size", way * other, way * pocket.floor, along))
+            continue
+        faced = bool(facing)
         limit = depth_deviation(2 * radius, pocket.width, radius - pocket.floor, in_shaft=True)
         depth = "" if limit is None else f" {'+' if faced else MINUS}{subject.say(limit)}"
         sizes += [
-            Size(f"keyway.{number}.width", way * walls[0], way * walls[3], across, "", subject.wishes.shaft_keyway),
+            Size(f"keyway.{number}.width", way * walls[0], way * walls[-1], across, "", subject.wishes.shaft_keyway),
             Size(f"keyway.{number}.height", way * radius * (1 if faced else -1), way * pocket.floor, along, "", depth),
         ]
     pieces.sort(key=lambda pair: pair[0])

@@ -48,6 +48,11 @@ PARTS: dict[str, dict[str, Any]] = {
     "fillets": {"kind": "shaft", "steps": [
         {"diameter": 30, "length": 60, "fillet": 5, "grooves": [{"at": 45, "width": 3, "diameter": 28, "fillet": 1}]},
         {"diameter": 40, "length": 10}]},
+    "flats": {"kind": "shaft", "steps": [
+        {"diameter": 10, "length": 20, "chamfer": 1, "flats": {"shape": "D", "flat": 9, "length": 12}},
+        {"diameter": 16, "length": 8},
+        {"diameter": 12, "length": 18, "chamfer": 2,
+         "flats": {"shape": "double_D", "across_flats": 9, "length": 10, "end": "upper", "angle_deg": 0}}]},
     "tube": {"kind": "shaft", "bore_diameter": 6.0, "steps": [
         {"diameter": 10.0, "length": 20.0, "chamfer": 1.0}, {"diameter": 16.0, "length": 20.0, "chamfer": 1.0}]},
 }  # fmt: skip
@@ -109,6 +114,8 @@ def faults(document: Drawing, part: dict[str, Any]) -> list[str]:
     for step in part.get("steps", []):
         for way in step.get("keyways", []):
             places += [z + way["at"], z + way["at"] + way["length"]]
+        if flats := step.get("flats"):
+            places.append(z + (flats["length"] if flats.get("end") != "upper" else step["length"] - flats["length"]))
         z += step["length"]
     return Told(document, corners_of(part)).faults(circles, places)
 

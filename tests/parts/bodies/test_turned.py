@@ -82,6 +82,32 @@ PARTS = {
     "bow": points((0.0, 0.0), {"r": 2.0, "z": 0.0, "arc": -3000.0}, (2.0, 4.0), (0.0, 4.0)),
     "cover": COVER,
     "shaft": SHAFT,
+    # through a chamfer that ends on the flats; amid a chamfer and amid a cylinder, beside a square keyway, on a tube
+    "flats": {
+        "kind": "shaft",
+        "steps": [
+            {"diameter": 5.0, "length": 9.0, "chamfer": 0.5, "flats": {"shape": "double_D", "across_flats": 4.0}},
+            {"diameter": 9.0, "length": 4.0},
+            {"diameter": 6.0, "length": 9.0, "chamfer": 0.4, "flats": {"shape": "D", "flat": 5.0, "angle_deg": 30.0}},
+        ],
+    },
+    "notched": {
+        "kind": "shaft",
+        "bore_diameter": 4.0,
+        "steps": [
+            {
+                "diameter": 8.0,
+                "length": 12.0,
+                "chamfer": 1.0,
+                "flats": {"shape": "D", "flat": 7.4, "length": 5.0},
+                "keyways": [
+                    {"at": 2.0, "length": 4.0, "width": 2.0, "depth": 1.0, "ends": "square", "angle_deg": -90.0}
+                ],
+            },
+            {"diameter": 8.0, "length": 4.0, "flats": {"shape": "double_D", "across_flats": 7.0, "angle_deg": 60.0}},
+            {"diameter": 8.0, "length": 4.0},
+        ],
+    },
     "tube": {"kind": "shaft", "bore_diameter": 6.0, "steps": [{"diameter": 10.0, "length": 20.0, "chamfer": 1.0}]},
 }
 
@@ -119,7 +145,7 @@ def test_volumes_by_pappus(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", [n if n in ("cone", "shaft") else pytest.param(n, marks=pytest.mark.heavy) for n in PARTS]
+    "name", [n if n in ("cone", "shaft", "flats") else pytest.param(n, marks=pytest.mark.heavy) for n in PARTS]
 )
 def test_a_turned_part_in_every_solid_file(name: str, tmp_path: Path) -> None:
     """Before: our reader called a cone round its apex too small, and knew no points within spheres and tori."""
@@ -304,13 +330,14 @@ def test_new_shows_a_ball_and_all_that_a_step_of_a_shaft_may_have() -> None:
     steps, shaft, top = shown("shaft", "steps")
     assert set(StepTable.__struct_fields__) <= set(re.findall(r"(\w+) = ", steps))
     assert top == pytest.approx(77.0, abs=1e-9)
-    # cylinders less the chamfers, the keyway of 5 x 3, the groove, and what is beside six teeth 4 wide
+    # cylinders less the chamfers, the keyway of 5 x 3, the groove, two flats, and what is beside six teeth 4 wide
     strips = [2 * math.sqrt(r * r - 4) + r * r * math.asin(2 / r) for r in (8, 10)]
     gaps = math.pi * (100 - 64) - 6 * (strips[1] - strips[0])
     taken = (
         math.pi * (17 * 0.5 + 1.5**2 * 5.5)
         + 3 * (16 * 5 - (4 - math.pi) * 2.5**2)
         + math.pi / 4 * (25**2 - 23.9**2) * 1.3
+        + 2 * 5 * (12.5**2 * math.acos(22 / 25) - 11 * math.sqrt(12.5**2 - 11**2))
         + 30 * gaps
     )
     assert shaft == pytest.approx(math.pi / 4 * (12**2 * 10 + 17**2 * 22 + 25**2 * 15 + 20**2 * 30) - taken, rel=2e-3)
