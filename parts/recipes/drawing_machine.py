@@ -17,7 +17,7 @@ from msgspec import Meta
 from msgspec.structs import replace
 
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, limit
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from parts.base.part_keys import Density, Material
 from parts.cams.disk_cam.part import USUAL_ROLLER_SHARE, CamSpec, cam_of, greatest_radius
 from parts.cams.wheel import inner_radius
@@ -28,6 +28,8 @@ from parts.recipes.making import Making, check_play, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from geometry.cams.motion.follower_motion import FollowerMotion
     from geometry.curves.curve import Complex
 
@@ -41,7 +43,7 @@ _ROWS = 720
 # mm: a larger prime circle is none to be made; the handle above its crank, and that where nobody says it
 _MOST_PRIME, _HANDLE, _CRANK_LENGTH = 500.0, 25.0, 30.0
 # of the smoothing, and of the pressure angle, tried where they ask for such cams; of one that works, how near to the
-# least the search ends, as each trial makes both cams
+# least the search ends, as each trial makes both motions
 _SMOOTHER, _STEEPER, _NEAR = (1.5, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0), (1.5, 2.0, 3.0, 4.0, 6.0), 0.02
 
 _PICTURE = 'closed line by its corners x, y, y upwards, in any unit; or { file = "heart.svg" }, a path of an SVG'
@@ -136,20 +138,27 @@ class _Making(Making):
         shares, places = along(self.line, min(_ROWS, 2000 - len(self.line)))
         degs = (360 * shares).tolist()
         tables = [[(a, s) for a, s in zip(degs, part.tolist(), strict=True)] for part in (places.real, places.imag)]
-        found: list[Table] = [
-            {"follower": "roller", "follower_radius": keys.follower_radius, "motion_table": table,
-             "table_tolerance": keys.smoothing / math.sqrt(2), "base_circle_radius": 2 * keys.size}
-            for table in tables
-        ]  # fmt: skip
+
+        def tabled(smoothing: float) -> list[Table]:
+            return [
+                {"follower": "roller", "follower_radius": keys.follower_radius, "motion_table": table,
+                 "table_tolerance": smoothing / math.sqrt(2), "base_circle_radius": 2 * keys.size}
+                for table in tables
+            ]  # fmt: skip
+
+        def smoothed(smoothing: float) -> list[FollowerMotion]:
+            return [cam_of(CamSpec(**one)).motion for one in tabled(smoothing)]
+
+        found = tabled(keys.smoothing)
         try:
-            motions = [cam_of(CamSpec(**one)).motion for one in found]
+            motions = smoothed(keys.smoothing)
         except ParameterError as refusal:
             if refusal.name != "table_tolerance":
                 raise
             raise refusal.renamed("smoothing", math.sqrt(2)) from refusal
         self.low = [float(motion.extremes()[0]) for motion in motions]
         self.high = [float(motion.extremes()[1]) for motion in motions]
-        least = self._least_prime(motions)
+        least = self._least_prime(motions, smoothed)
         self.prime = least if keys.prime_circle_radius is None else keys.prime_circle_radius
         if self.prime < least:
             raise ParameterError(
@@ -161,33 +170,50 @@ class _Making(Making):
         self.reach = max(greatest_radius(cam) for cam in self.made)
         return found
 
-    def _least_prime(self, motions: list[FollowerMotion]) -> float:
-        """The prime circle, whole mm, that keeps pressure angle, curvature, and slides off the shaft."""
-        from geometry.cams.plane.synthesis import convex_roller_base_radius, roller_prime_radius
+    def _least_prime(
+        self, motions: list[FollowerMotion], smoothed: Callable[[float], list[FollowerMotion]]
+    ) -> float:
+        """The prime circle, whole mm, that keeps pressure angle, curvature, and slides off the shaft.
+
+        ``smoothed``: the motions of both cams by another smoothing.
+        """
+        from geometry.cams.plane.synthesis import convex_roller_base_radius, keeps_convex_radius, roller_prime_radius
 
         keys, r = self.keys, self.keys.follower_radius
-        steep = math.radians(keys.greatest_pressure_angle_deg)
         convex = max(keys.least_curvature_radius, r / USUAL_ROLLER_SHARE - r)
         room = max(self.half + max(self.ring, keys.axle_diameter / 2 + _WALL), r + keys.pen_diameter / 2)
         # the key goes through both cams between the shaft and their base circles
         room = max(room, r + keys.axle_diameter / 2 + keys.guide_pin_diameter + 2 * _RIM - _APART)
-        pressure = max(roller_prime_radius(motion, 0.0, steep, steep) for motion in motions)
+
+        def pressed(greatest_deg: float) -> float:
+            steep = math.radians(greatest_deg)
+            return max(roller_prime_radius(motion, 0.0, steep, steep) for motion in motions)
+
+        def is_blunt(smoothing: float) -> bool:
+            return all(keeps_convex_radius(motion, r, convex, _MOST_PRIME - r) for motion in smoothed(smoothing))
+
+        pressure = pressed(keys.greatest_pressure_angle_deg)
+        if pressure > _MOST_PRIME:
+            raise self._too_large("greatest_pressure_angle_deg", _STEEPER, lambda deg: pressed(deg) <= _MOST_PRIME)
         try:
             curved = r + max(convex_roller_base_radius(motion, r, convex) for motion in motions)
         except ConvergenceError:
             curved = math.inf
-        for name, asked, shares in (
-            ("greatest_pressure_angle_deg", pressure, _STEEPER),
-            ("smoothing", curved, _SMOOTHER),
-        ):
-            if asked > _MOST_PRIME:
-                given = getattr(keys, name)
-                works = partial(self._works, name)
-                cure = partial(nearest, works, given, [given * share for share in shares], share=_NEAR)
-                raise ParameterError(name, given, "cams_too_large", cure, most=_MOST_PRIME)
+        if curved > _MOST_PRIME:
+            raise self._too_large("smoothing", _SMOOTHER, is_blunt)
         return float(math.ceil(round(max(room + _APART - min(self.low), pressure, curved), 6)))
 
-    def _works(self, name: str, value: float) -> bool:
+    def _too_large(self, name: str, shares: tuple[float, ...], holds: Callable[[float], bool]) -> ParameterError:
+        """The refusal of a key that asks for cams that are none to be made; what it offers makes a whole machine."""
+        given = getattr(self.keys, name)
+
+        def cure() -> Nearest | None:
+            found = nearest(holds, given, [given * share for share in shares], share=_NEAR)
+            return found if found is not None and kept(partial(self._works, name), found.value) else None
+
+        return ParameterError(name, given, "cams_too_large", cure, most=_MOST_PRIME)
+
+    def _works(self, name: str, value: object) -> bool:
         """Whether a machine of another value of a key can be made."""
         return bool(_Making(replace(self.keys, **{name: value})))
 

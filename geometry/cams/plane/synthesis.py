@@ -219,8 +219,7 @@ def convex_roller_base_radius(
     """
 
     def excess(base: float) -> float:
-        cam = translating_cam(motion, FollowerKind.ROLLER, base, radius=radius, follower_offset=follower_offset)
-        return least_convex_radius(cam).value - least_curvature_radius
+        return _convex_excess(motion, radius, least_curvature_radius, base, follower_offset)
 
     low = max(abs(follower_offset) * (1 + 1e-9) - radius, 1e-3 * radius)
     if excess(low) >= 0:
@@ -231,6 +230,18 @@ def convex_roller_base_radius(
             return bracketed_root(excess, low, high).value
         low, high = high, 2 * high
     raise ConvergenceError("base radius for the curvature", excess(high), _DOUBLINGS)
+
+
+def keeps_convex_radius(motion: FollowerMotion, radius: float, least_curvature_radius: float, base: float) -> bool:
+    """Whether a roller's cam on a base circle, mm, keeps a least convex radius of curvature."""
+    return _convex_excess(motion, radius, least_curvature_radius, base) >= 0
+
+
+def _convex_excess(
+    motion: FollowerMotion, radius: float, least_curvature_radius: float, base: float, follower_offset: float = 0.0
+) -> float:
+    cam = translating_cam(motion, FollowerKind.ROLLER, base, radius=radius, follower_offset=follower_offset)
+    return least_convex_radius(cam).value - least_curvature_radius
 
 
 def convex_rocker_base_radius(cam_at: Callable[[float], DiskCam], least: float, most: float, rho: float) -> float:
