@@ -170,9 +170,7 @@ class _Making(Making):
         self.reach = max(greatest_radius(cam) for cam in self.made)
         return found
 
-    def _least_prime(
-        self, motions: list[FollowerMotion], smoothed: Callable[[float], list[FollowerMotion]]
-    ) -> float:
+    def _least_prime(self, motions: list[FollowerMotion], smoothed: Callable[[float], list[FollowerMotion]]) -> float:
         """The prime circle, whole mm, that keeps pressure angle, curvature, and slides off the shaft.
 
         ``smoothed``: the motions of both cams by another smoothing.
