@@ -58,3 +58,21 @@ def shift_of_span(span: float, teeth_spanned: int, teeth: int, match: Match, hel
     alpha = match.pressure_angle
     arc = math.pi * (teeth_spanned - 0.5) + teeth * involute_function(transverse_angle(alpha, helix))
     return (span / (match.module * math.cos(alpha)) - arc) / (2 * math.tan(alpha))
+
+
+def pin_centres(size: float, pin: float, teeth: int) -> float:
+    """Diameter on which the centres of pins stand whose size over them is told, of a ring (``pin`` below 0) between."""
+    return (size - pin) / (math.cos(math.pi / (2 * teeth)) if teeth % 2 else 1.0)
+
+
+def shift_of_pins(centres: float, pin: float, teeth: int, match: Match, helix: float) -> float:
+    """x of inv(alpha_D) = inv(alpha_t) + D / (z m cos(alpha)) - pi / (2 z) + 2 x tan(alpha) / z, ISO 21771.
+
+    ``centres``: d_b / cos(alpha_D). Of a ring D is below 0, and the half pitch has the other sign. Thinning makes x
+    less than it is, of a ring more.
+    """
+    alpha, transverse = match.pressure_angle, transverse_angle(match.pressure_angle, helix)
+    base = match.module * teeth / math.cos(helix) * math.cos(transverse)
+    polar = involute_function(math.acos(base / centres)) - involute_function(transverse)
+    own = math.copysign(math.pi / 2, pin) - pin / (match.module * math.cos(alpha))
+    return (teeth * polar + own) / (2 * math.tan(alpha))

@@ -1,4 +1,4 @@
-"""``higherpair calc identify``: an unknown gear by two spans, and by the diameters of its tips and roots."""
+"""``higherpair calc identify``: an unknown gear by two spans or by pins, and by the diameters of its tips and roots."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.gears.teeth.identified import ANGLES, FITS, Match, matches, shift_of_span
+from geometry.gears.teeth.identified import ANGLES, FITS, Match, matches, pin_centres, shift_of_pins, shift_of_span
 from geometry.gears.teeth.module_rows import INCH
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.texts import N_, message
@@ -23,15 +23,23 @@ _Teeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z, co
 _Spanned = Annotated[int, Meta(ge=1, le=10_000, description="teeth in the first span k", examples=[4])]
 _SPAN = mm("span measured over k teeth", above=0, most=100_000, example=32.83)
 _NEXT = mm("span measured over one tooth more", above=0, most=100_000, example=41.68)
+_OVER = mm("in place of spans, with module and pin_diameter: size measured over pins or balls", above=0, most=100_000,
+           example=83.9)  # fmt: skip
+_BETWEEN = mm("the same of a ring: size measured between pins or balls", above=0, most=100_000, example=115.6)
 
 
 class IdentifyKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of the topic: what was counted and measured, and what is known besides."""
 
     number_of_teeth: _Teeth
-    teeth_spanned: _Spanned
-    span: Annotated[float, _SPAN]
-    next_span: Annotated[float, _NEXT]
+    teeth_spanned: _Spanned | None = None
+    span: Annotated[float, _SPAN] | None = None
+    next_span: Annotated[float, _NEXT] | None = None
+    over_pins: Annotated[float, _OVER] | None = None
+    between_pins: Annotated[float, _BETWEEN] | None = None
+    pin_diameter: Annotated[float, mm("diameter of those pins or balls", above=0, most=10_000, example=5.0)] | None = (
+        None
+    )
     tip_diameter: Annotated[float, mm("tip diameter measured", above=0, most=100_000)] | None = None
     root_diameter: Annotated[float, mm("root diameter measured", above=0, most=100_000)] | None = None
     helix_angle_deg: Annotated[float, degrees("helix angle measured", least=-60, most=60)] = 0.0
@@ -42,21 +50,38 @@ class IdentifyKeys(Struct, kw_only=True, forbid_unknown_fields=True):
 @calculation(TOPIC, IdentifyKeys)
 def sheet(keys: IdentifyKeys) -> Sheet:
     """Module and pressure angle, shift, heights of the tooth, and the keys of a scene."""
-    helix, pitch = math.radians(keys.helix_angle_deg), keys.next_span - keys.span
+    pins = [k for k in ("over_pins", "between_pins") if getattr(keys, k) is not None]
+    spans = [k for k in ("teeth_spanned", "span", "next_span") if getattr(keys, k) is not None]
+    if len(both := [*pins, *spans]) > 1 and pins:
+        raise ParameterError(both[1], getattr(keys, both[1]), "either_key", Nearest(None), one=both[0], other=both[1])
+    page = Sheet(TOPIC, N_("Gear by measurement"))
+    page.section("Given")
+    page.given(number_of_teeth=keys.number_of_teeth)
+    return _by_pins(page, keys, pins[0]) if pins else _by_spans(page, keys)
+
+
+def _needed(keys: IdentifyKeys, key: str, other: str) -> float:
+    """What a key gives that this way of measuring needs; ``other``: a key of the other way."""
+    if (value := getattr(keys, key)) is None:
+        raise ParameterError(key, None, "give_it_or", other=other)
+    return float(value)
+
+
+def _by_spans(page: Sheet, keys: IdentifyKeys) -> Sheet:
+    """Base pitch, pressure angle and module by two spans, the shift by the first."""
+    teeth, span, more = (_needed(keys, key, "over_pins") for key in ("teeth_spanned", "span", "next_span"))
+    spanned = int(teeth)
+    helix, pitch = math.radians(keys.helix_angle_deg), more - span
     if pitch <= 0:
-        raise ParameterError("next_span", keys.next_span, "not_above_span", span=keys.span)
-    if keys.teeth_spanned >= keys.number_of_teeth:
+        raise ParameterError("next_span", more, "not_above_span", span=span)
+    if spanned >= keys.number_of_teeth:
         most = Nearest(keys.number_of_teeth - 1, "at_most")
-        raise ParameterError(
-            "teeth_spanned", keys.teeth_spanned, "span_beyond_teeth", most, teeth=keys.number_of_teeth
-        )  # fmt: skip
+        raise ParameterError("teeth_spanned", spanned, "span_beyond_teeth", most, teeth=keys.number_of_teeth)
     angles = ANGLES if keys.pressure_angle_deg is None else (keys.pressure_angle_deg,)
     found = matches(pitch, [math.radians(a) for a in angles], keys.module)
     match = found[0]
-    page = Sheet(TOPIC, N_("Gear by measurement"))
-    page.section("Given")
-    page.given(number_of_teeth=keys.number_of_teeth, teeth_spanned=keys.teeth_spanned, span=keys.span)
-    page.given(next_span=keys.next_span, tip_diameter=keys.tip_diameter, root_diameter=keys.root_diameter)
+    page.given(teeth_spanned=spanned, span=span, next_span=more)
+    page.given(tip_diameter=keys.tip_diameter, root_diameter=keys.root_diameter)
     if helix:
         page.add("helix_angle_deg", keys.helix_angle_deg, given=True)
     page.section(N_("Module and pressure angle"))
@@ -66,15 +91,52 @@ def sheet(keys: IdentifyKeys) -> Sheet:
     page.add("module", match.module, "", match.row, symbol="m_n" if helix else "")
     page.add("diametral_pitch", INCH / match.module, f"{INCH} / {{m}}")
     page.add("pitch_difference_percent", 100 * match.deviation, "100 * ({m_b} / {m} - 1)")
-    shift = _shift(page, keys, match, helix)
+    shift = _shift(page, keys, (spanned, span, more), match, helix)
     _heights(page, keys, match, helix, shift)
     page.tables.append(_table(found))
-    _remarks(page, keys, found, shift)
+    _remarks(page, keys, spanned, found, shift)
     return page
 
 
-def _shift(page: Sheet, keys: IdentifyKeys, match: Match, helix: float) -> float:
-    """The profile shift, and where the faces of the calliper touch."""
+def _by_pins(page: Sheet, keys: IdentifyKeys, key: str) -> Sheet:
+    """The shift by a size over pins, of a ring between them, where module and pressure angle are known."""
+    ring, helix = key == "between_pins", math.radians(keys.helix_angle_deg)
+    module, size = _needed(keys, "module", "span"), _needed(keys, key, "span")
+    pin = _needed(keys, "pin_diameter", "span")
+    match = Match(math.radians(keys.pressure_angle_deg or ANGLES[0]), module, 0.0, "")
+    page.add(key, size, given=True)
+    page.given(pin_diameter=pin, tip_diameter=keys.tip_diameter, root_diameter=keys.root_diameter)
+    page.add("module", module, symbol="m_n" if helix else "", given=True)
+    angle = math.degrees(match.pressure_angle)
+    page.add("pressure_angle_deg", angle, symbol="α_n" if helix else "", key="alpha_n", given=True)
+    if helix:
+        page.add("helix_angle_deg", keys.helix_angle_deg, given=True)
+    transverse = _reference(page, keys, match, helix)
+    base = module * keys.number_of_teeth / math.cos(helix) * math.cos(transverse)
+    centres = pin_centres(size, -pin if ring else pin, keys.number_of_teeth)
+    if not centres > base:
+        raise ParameterError(key, size, "pin_falls_through")
+    sign, other = ("+", "-") if ring else ("-", "+")
+    across = f"{{M}} {sign} {{D}}"
+    formula = f"({across}) / cos(pi / (2 * {{z}}))" if keys.number_of_teeth % 2 else across
+    page.add("pin_centre_diameter", centres, formula, "ISO 21771")
+    page.add("pin_centre_angle_deg", math.degrees(math.acos(base / centres)), "arccos({d_b} / {d_D})", "ISO 21771")
+    shift = shift_of_pins(centres, -pin if ring else pin, keys.number_of_teeth, match, helix)
+    polar = "{z} * (inv({alpha_D}) - inv({alpha}))"
+    formula = f"({polar} {sign} {{D}} / ({{m}} * cos({{alpha_n}})) {other} pi / 2) / (2 * tan({{alpha_n}}))"
+    page.add("profile_shift_coefficient", shift, formula, "ISO 21771", symbol="x_n" if helix else "")
+    _heights(page, keys, match, helix, shift, -1 if ring else 1)
+    if abs(2 * shift * math.tan(match.pressure_angle)) >= math.pi / 2:
+        page.note(
+            "no gear has such a shift, its tooth or space would be none: another module, or count the teeth again"
+        )
+        return page
+    _told(page, keys, match, shift, "more" if ring else "less")
+    return page
+
+
+def _reference(page: Sheet, keys: IdentifyKeys, match: Match, helix: float) -> float:
+    """The transverse pressure angle with which the section of the shift begins, reference and base diameter."""
     transverse = transverse_angle(match.pressure_angle, helix)
     page.section("Profile shift")
     if helix:
@@ -82,34 +144,43 @@ def _shift(page: Sheet, keys: IdentifyKeys, match: Match, helix: float) -> float
         page.add("transverse_pressure_angle_deg", angle, "arctan(tan({alpha_n}) / cos({beta}))", "ISO 21771")
     else:
         page.name("alpha", "alpha_n")
-    shift = shift_of_span(keys.span, keys.teeth_spanned, keys.number_of_teeth, match, helix)
+    reference = match.module * keys.number_of_teeth / math.cos(helix)
+    page.add("reference_diameter", reference, "{m} * {z} / cos({beta})" if helix else "{m} * {z}", "ISO 21771")
+    page.add("base_diameter", reference * math.cos(transverse), "{d} * cos({alpha})", "ISO 21771")
+    return transverse
+
+
+def _shift(page: Sheet, keys: IdentifyKeys, spans: tuple[int, float, float], match: Match, helix: float) -> float:
+    """The profile shift, and where the faces of the calliper touch; ``spans``: teeth, span, that over one more."""
+    spanned, span, more = spans
+    transverse = _reference(page, keys, match, helix)
+    shift = shift_of_span(span, spanned, keys.number_of_teeth, match, helix)
     arc = "pi * ({k} - 0.5) + {z} * inv({alpha})"
     formula = f"({{W}} / ({{m}} * cos({{alpha_n}})) - ({arc})) / (2 * tan({{alpha_n}}))"
     page.add("profile_shift_coefficient", shift, formula, "ISO 21771", symbol="x_n" if helix else "")
-    reference = match.module * keys.number_of_teeth / math.cos(helix)
-    page.add("reference_diameter", reference, "{m} * {z} / cos({beta})" if helix else "{m} * {z}", "ISO 21771")
-    base = reference * math.cos(transverse)
-    page.add("base_diameter", base, "{d} * cos({alpha})", "ISO 21771")
+    base = match.module * keys.number_of_teeth / math.cos(helix) * math.cos(transverse)
     across = math.cos(base_helix_angle(transverse, helix))
-    touched = math.hypot(base, keys.next_span * across)
+    touched = math.hypot(base, more * across)
     page.add("span_contact_diameter", touched, "" if helix else "sqrt({d_b}**2 + {W_1}**2)", "ISO 21771")
     if keys.tip_diameter is not None and touched > keys.tip_diameter:
         page.note("the span over k + 1 teeth does not touch the involutes: measure over fewer teeth")
     return shift
 
 
-def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift: float) -> None:
-    """The heights of the tooth in modules, of the diameters that were measured."""
+def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift: float, sign: int = 1) -> None:
+    """The heights of the tooth in modules, of the diameters that were measured; ``sign``: -1 of a ring."""
     if keys.tip_diameter is None and keys.root_diameter is None:
         return
     page.section(N_("Heights of the tooth"))
     reference = match.module * keys.number_of_teeth / math.cos(helix)
     if keys.tip_diameter is not None:
-        value = (keys.tip_diameter - reference) / (2 * match.module) - shift
-        page.add("addendum_coefficient", value, "({d_a} - {d}) / (2 * {m}) - {x}")
+        value = sign * ((keys.tip_diameter - reference) / (2 * match.module) - shift)
+        formula = "({d_a} - {d}) / (2 * {m}) - {x}" if sign > 0 else "({d} - {d_a}) / (2 * {m}) + {x}"
+        page.add("addendum_coefficient", value, formula)
     if keys.root_diameter is not None:
-        value = (reference - keys.root_diameter) / (2 * match.module) + shift
-        page.add("dedendum_coefficient", value, "({d} - {d_f}) / (2 * {m}) + {x}")
+        value = sign * ((reference - keys.root_diameter) / (2 * match.module) + shift)
+        formula = "({d} - {d_f}) / (2 * {m}) + {x}" if sign > 0 else "({d_f} - {d}) / (2 * {m}) - {x}"
+        page.add("dedendum_coefficient", value, formula)
 
 
 def _table(found: list[Match]) -> Table:
@@ -118,7 +189,7 @@ def _table(found: list[Match]) -> Table:
     return table_of("modules", N_("Pressure angles and modules, what fits first"), heads, rows)
 
 
-def _remarks(page: Sheet, keys: IdentifyKeys, found: list[Match], shift: float) -> None:
+def _remarks(page: Sheet, keys: IdentifyKeys, spanned: int, found: list[Match], shift: float) -> None:
     """What is not certain, and how a scene has the gear."""
     match, *others = found
     if abs(match.deviation) > FITS:
@@ -127,15 +198,23 @@ def _remarks(page: Sheet, keys: IdentifyKeys, found: list[Match], shift: float) 
         page.note("more than one fits within 1 %: pressure_angle_deg or module tells which")
     # by so much less is the shift with a tooth more: a tooth or a space as wide as the pitch is none
     step = math.pi / (2 * math.tan(match.pressure_angle))
-    if (missed := round(shift / step)) and keys.teeth_spanned + missed >= 1:
-        other = {"spanned": keys.teeth_spanned + missed, "shift": round(shift - missed * step, 4)}
+    if (missed := round(shift / step)) and spanned + missed >= 1:
+        other = {"spanned": spanned + missed, "shift": round(shift - missed * step, 4)}
         page.note(
             "no gear has such a shift, its tooth or space would be none: count the teeth of both spans again, "
             "teeth_spanned = {spanned} gives {shift}",
             **other,
         )
         return
-    page.note("teeth thinned for backlash give less shift than they were cut with")
+    _told(page, keys, match, shift)
+
+
+def _told(page: Sheet, keys: IdentifyKeys, match: Match, shift: float, off: str = "less") -> None:
+    """What thinning hides, and how a scene has the gear."""
+    if off == "less":
+        page.note("teeth thinned for backlash give less shift than they were cut with")
+    else:
+        page.note("teeth of a ring thinned for backlash give more shift than they were cut with")
     words = {"module": match.module, "number_of_teeth": keys.number_of_teeth,
              "pressure_angle_deg": math.degrees(match.pressure_angle), "helix_angle_deg": keys.helix_angle_deg,
              "profile_shift_coefficient": round(shift, 4), "tip_diameter": keys.tip_diameter}  # fmt: skip

@@ -53,6 +53,47 @@ def test_the_scene_that_is_told_has_the_span_that_was_measured(capsys: pytest.Ca
     assert json.loads(capsys.readouterr().out)["values"]["span"] == pytest.approx(first, abs=1e-3)
 
 
+# NREL 5 MW gearboxes print shifts beside sizes over pins; a helical ring's is written down anew below
+@pytest.mark.parametrize(
+    ("module", "teeth", "pin", "over", "shift"),
+    [(45.0, 19, 95.0, 1050.69, 0.617), (45.0, 17, 110.0, 1008.755, 0.80211), (21.0, 36, 40.0, 836.492, 0.50391)],
+)
+def test_shifts_are_found_by_published_sizes_over_pins(
+    capsys: pytest.CaptureFixture[str], module: float, teeth: int, pin: float, over: float, shift: float
+) -> None:
+    found = identified(capsys, module=module, number_of_teeth=teeth, pin_diameter=pin, over_pins=over)["values"]
+    # printed to 0.005 mm
+    assert found["profile_shift_coefficient"] == pytest.approx(shift, abs=0.01 / module)
+
+
+@pytest.mark.parametrize("teeth", [60, 61])
+@pytest.mark.parametrize(("key", "sign"), [("over_pins", 1), ("between_pins", -1)])
+@pytest.mark.parametrize(("angle", "helix"), [(20.0, 0.0), (25.0, -30.0)])
+def test_shifts_are_found_by_a_ball_between_two_flanks(
+    capsys: pytest.CaptureFixture[str], key: str, sign: int, teeth: int, angle: float, helix: float
+) -> None:
+    """The ball's centre stands where an involute parallel to the flank by its radius meets the middle of the space."""
+    shift, module, ball = 0.37, 2.0, 3.6
+    alpha, beta = math.radians(angle), math.radians(abs(helix))
+    across = math.atan(math.tan(alpha) / math.cos(beta))
+    base = module * teeth / math.cos(beta) * math.cos(across)
+    # half of the space at the base circle; of a ring that of an external tooth of the same shift
+    half = math.tan(across) - across + (math.pi / 2 + 2 * shift * math.tan(alpha)) / teeth
+    polar = half + sign * ball / (module * teeth * math.cos(alpha)) - (math.pi / teeth if sign > 0 else 0.0)
+    low, high = 0.0, 1.5
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if math.tan(middle) - middle < polar else (low, middle)
+    size = base / math.cos(low) * (math.cos(math.pi / (2 * teeth)) if teeth % 2 else 1.0) + sign * ball
+    keys = {"number_of_teeth": teeth, "pin_diameter": ball, "module": module, "helix_angle_deg": helix, key: size}
+    reference = module * teeth / math.cos(beta)
+    heights = {"tip_diameter": reference + 2 * module * (shift + sign), "root_diameter": reference + 2 * module * (
+        shift - 1.25 * sign)}  # fmt: skip
+    found = identified(capsys, pressure_angle_deg=angle, **keys, **heights)["values"]
+    assert found["profile_shift_coefficient"] == pytest.approx(shift, abs=1e-9)
+    assert (found["addendum_coefficient"], found["dedendum_coefficient"]) == pytest.approx((1.0, 1.25), abs=1e-9)
+
+
 def spans_of(module: float, angle_deg: float, teeth: int, shift: float, spanned: int) -> list[float]:
     """Arcs of the base circle, which a calliper's faces unroll: k - 1 pitches and a tooth."""
     alpha = math.radians(angle_deg)
@@ -106,6 +147,24 @@ def test_readings_that_cannot_be_are_told(
     shown = capsys.readouterr()
     assert told in shown.out + shown.err
     assert code == (0 if "tip_diameter" in changed else 2)
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        ({}, "identify.teeth_spanned: is missing: give it or over_pins"),
+        ({"over_pins": 50.0}, "identify.module: is missing: give it or span"),
+        ({"over_pins": 50.0, "span": 32.83}, "give either over_pins or span"),
+        ({"over_pins": 50.0, "between_pins": 32.83}, "give either over_pins or between_pins"),
+        ({"over_pins": 45.0, "module": 2.0, "pin_diameter": 3.5}, "the pin falls between the flanks"),
+        ({"over_pins": 70.0, "module": 2.0, "pin_diameter": 3.5}, "no gear has such a shift"),
+    ],
+    ids=["nothing", "module", "span", "both", "low", "high"],
+)
+def test_what_pins_cannot_tell_is_told(capsys: pytest.CaptureFixture[str], keys: dict[str, float], told: str) -> None:
+    run("calc", "identify", "number_of_teeth=24", *(f"{k}={v}" for k, v in keys.items()))
+    shown = capsys.readouterr()
+    assert told in shown.out + shown.err
 
 
 @given(
