@@ -3,7 +3,8 @@
 From the back, in boards: hand crank; frame; crank, glued to the axle that the hand crank turns; over it the rod, or at
 once the lever in whose slot the crank's pin runs; the lever; the second rod; its rocker. Each link lies on the one
 before it, at its own axle on spacers as high. The pins are glued into one of both links and turn in the other; those of
-sliders go down to slots of the frame, in washers. Caps on the free ends of dowels hold the links, wherever there is
+sliders go down to slots of the frame, in washers; where the links below leave them no way there, up to the slot of a
+bridge, which stands over all links on two pillars. Caps on the free ends of dowels hold the links, wherever there is
 room for them. Links of one layer are held apart all the way round.
 """
 
@@ -13,7 +14,7 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 from functools import partial
-from itertools import combinations
+from itertools import combinations, count
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -50,6 +51,8 @@ if TYPE_CHECKING:
 _WALL, _APART, _SLACK, _SHORT, _BESIDE, _CORNER, _RING, _GRIP = 2.0, 1.0, 1.0, 0.5, 10.0, 6.0, 3.0, 20.0
 # length of the hand crank over the width of links
 _REACH = 2.5
+# by which pillars are moved out until they have room
+_STEP = 1.0
 # mm within which joints are one
 _SAME = 1e-9
 # positions of the crank in which links of a layer are held apart
@@ -154,10 +157,12 @@ class _Making(Making):
         # caps alike
         self.caps: list[tuple[str, str, int]] = []
         self.guides: list[tuple[complex, complex]] = []
+        # layer and corners of the bridge, holes of its pillars and ends of its slot
+        self.bridge: tuple[int, list[complex], list[complex]] | None = None
+        self.moving = self._moving()
         self._first()
         self._second()
         self._check_walls()
-        self.moving = self._moving()
         self._check_room()
         self.dowels = [*self._capped()]
 
@@ -179,13 +184,33 @@ class _Making(Making):
         self.dowels.append(_Dowel(f"pin_{name}", link, at, self.pin_size, layers, key, rings, cap))
 
     def _slider(self, name: str, link: str, at: complex, layer: int, key: str, guide: Slider) -> None:
-        """A pin that runs in a slot of the frame, and that slot."""
+        """A pin that runs in a slot, of the frame if it finds its way down, and that slot."""
         from geometry.kinematics.levers import travel
 
-        self._joint(name, link, at, (0, layer), key, "washer")
         found, way = travel(self.levers, "slider"), cmath.exp(1j * guide.angle)
         ends = [guide.on + reach * way for reach in (found.least - _SLACK, found.greatest + _SLACK)]
-        self.guides.append((ends[0], ends[1]))
+        others = [*self._solids()]
+        self._joint(name, link, at, (0, layer), key, "washer")
+        down = self.dowels[-1]
+        if self._has_room(self._about(down, down.rings, range(1, layer)), others):
+            self.guides.append((ends[0], ends[1]))
+            return
+        self.dowels[-1] = replace(down, layers=(layer, layer + 1), rings="", cap=layer + 2)
+        pillars = [
+            self._pillar(k, end, out, layer, key, others) for k, end, out in ((1, ends[0], -way), (2, ends[1], way))
+        ]
+        self.bridge = layer + 1, pillars, ends
+
+    def _pillar(self, number: int, end: complex, out: complex, top: int, key: str, others: Sequence[_Solid]) -> complex:
+        """One of a bridge over a layer: the first place out from an end of its slot that nothing comes to."""
+        wall = (self.pin_size + self.keys.clearance + self.axle_size) / 2 + _WALL
+        for k in count():
+            at = end + (wall + k * _STEP) * out
+            dowel = _Dowel(f"pillar_{number}", "0", at, self.axle_size, (0, top + 1), key, "spacer")
+            if self._has_room(self._about(dowel, dowel.rings, range(1, top + 1)), others):
+                break
+        self.dowels.append(dowel)
+        return at
 
     def _first(self) -> None:
         """The crank, and what its pin joins."""
@@ -292,6 +317,9 @@ class _Making(Making):
         for dowel in self.dowels:
             if dowel.rings:
                 yield self._about(dowel, dowel.rings, range(1, dowel.layers[1]))
+        if self.bridge is not None:
+            layer, pillars, _ = self.bridge
+            yield _Solid("bridge", "0", range(layer, layer + 1), pillars, self.keys.link_width / 2)
 
     @property
     def _reach(self) -> float:
@@ -311,7 +339,7 @@ class _Making(Making):
                 yield dowel
                 continue
             cap = self._about(dowel, "cap", range(dowel.cap, dowel.cap + 1))
-            if self.keys.caps and all(self._apart(cap, other) >= _APART for other in taken):
+            if self.keys.caps and self._has_room(cap, taken):
                 taken.append(cap)
                 yield dowel
             else:
@@ -334,6 +362,9 @@ class _Making(Making):
                              for solid in (low, high))  # fmt: skip
         return float(_off_hull(at, corners).min()) - one.radius - other.radius
 
+    def _has_room(self, solid: _Solid, others: Sequence[_Solid]) -> bool:
+        return all(self._apart(solid, other) >= _APART for other in others)
+
     def _check_room(self) -> None:
         """Nothing meets in a layer, wherever the crank stands."""
         for one, other in combinations(self._solids(), 2):
@@ -347,6 +378,8 @@ class _Making(Making):
         self._frame()
         for name, link in self.links.items():
             self._flat(name, link)
+        if self.bridge is not None:
+            self._bridge(*self.bridge)
         for ring, size in (("spacer", self.axle_size), ("washer", self.pin_size)):
             if any(dowel.rings == ring and dowel.layers[1] > 1 for dowel in self.dowels):
                 self.plate(ring, size + 2 * _RING, [hole(0j, size + keys.clearance)], label=False)
@@ -362,6 +395,8 @@ class _Making(Making):
         for name, link in [*self.links.items()][1:]:
             self.put("lever_member", "crank", name, member=link.member, height=(link.layer - 1) * thick)
         self._stand_all("washer", [dowel for dowel in self.dowels if dowel.link != "0"])
+        if self.bridge is not None:
+            self.fix("frame", "bridge", 0j, self.bridge[0] * thick)
         capped = [dowel for dowel in self.dowels if dowel.cap is not None]
         for k, dowel in enumerate(capped, 1):
             self._stand(dowel, f"cap_{k}", dowel.cap or 0, _cap_of(dowel))
@@ -411,8 +446,12 @@ class _Making(Making):
             if name == "crank" and self.keys.hand_crank:
                 step("hand_crank", "crank", "behind")
                 step("handle", "crank", "behind")
+            above = [link.layer + 1]
+            if self.bridge is not None and self.bridge[0] == link.layer + 1:
+                above.append(link.layer + 2)
+                step("bridge", "frame", "front")
             for cap, on, layer in self.caps:
-                if layer == link.layer + 1:
+                if layer in above:
                     step(cap, "frame" if on == "0" else on, "front")
                 elif layer < 0 and on == name:
                     step(cap, on, "behind")
@@ -448,6 +487,16 @@ class _Making(Making):
             holes=[hole(at, size) for at, size in axles], slots=slots, **label,
         )  # fmt: skip
         self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -self.thickness], "held": True}
+
+    def _bridge(self, layer: int, pillars: Sequence[complex], slot: Sequence[complex]) -> None:
+        """A strip over its pillars, in the frame of the frame."""
+        (one, two), wide = ((place(at, 0.0)[:2] for at in slot), self.pin_size + self.keys.clearance)
+        circles = [{"at": place(at, 0.0)[:2], "diameter": self.axle_size} for at in pillars]
+        outline = {"points": _rounded(pillars, self.keys.link_width / 2)}
+        self.part("bridge", kind="layered", layers=[{
+            "thickness": self.thickness, "outlines": [outline], "circles": circles,
+            "slots": [{"start": one, "end": two, "width": wide}],
+        }])  # fmt: skip
 
     def _flat(self, name: str, link: _Link) -> None:
         """A link as a flat part: the crank, an arm, or the hull of round ends."""
