@@ -76,6 +76,8 @@ def test_a_calculation_tells_it_too(capsys: pytest.CaptureFixture[str]) -> None:
         (_SPUR | {"module": 2.0}, "backlash", 0.1, "circumferential_thinning"),
         (_SPUR | {"module": 2.0}, "axle_hole", 5.0, "bore_diameter"),
         (_SPUR | {"module": 2.0}, "root_fillet", 0.2, "basic_rack.tip_radius_coefficient"),
+        (_SPUR | {"module": 2.0}, "quality", 7, "accuracy"),
+        (_SPUR | {"module": 2.0}, "text", "Z20", "label"),
         (_SPUR | {"module": 2.0}, "root_diameter", 30.0, None),
         (_BEVEL, "cone_distance", 30.0, None),
         (_BEVEL, "pitch_angle_deg", 45.0, None),
@@ -90,6 +92,13 @@ def test_a_word_of_another_program_leads_to_ours_or_nowhere(
     refusal = told(tmp_path, capsys, part | {word: value})
     found = re.search(r"did you mean (\S+)\?", refusal)
     assert (found[1] if found else None) == meant
+
+
+@pytest.mark.parametrize("word", ["horizontal_expansion", "xy_size_compensation"])
+def test_what_slicers_call_an_offset_leads_to_it(tmp_path: Path, capsys: pytest.CaptureFixture[str], word: str) -> None:
+    part = _SPUR | {"module": 2.0}
+    assert run("check", write_scene(tmp_path / "s.toml", {"g": part}, [{"format": "stl", word: -0.1}])) == 2
+    assert "did you mean offset?" in capsys.readouterr().err
 
 
 _TOOTHED = _SPUR | {"module": 2.0}
@@ -119,6 +128,7 @@ def test_what_other_programs_tell_by_one_number_is_shown_as_a_table(
         ("crown_gear", "face_gear"), ("internal_gear", "ring_gear"), ("elliptical_gear", "noncircular_gear"),
         ("cylindrical_cam", "barrel_cam"), ("maltese_cross", "geneva_wheel"), ("screw_gear", "crossed_helical_pair"),
         ("cycloidal_drive", "cycloidal_reducer"), ("disc_cam", "cam"), ("detent", "pawl"),
+        ("planetary_gear", "planetary_set"),
         ("harmonic_drive", None), ("globoidal_cam", None), ("sector_gear", "spur_gear"),
     ],
 )  # fmt: skip
