@@ -134,6 +134,8 @@ class Mating(Joined, kw_only=True):
     lies = False
     # whether ``second_axis`` is told in the frame of the first as it is turned
     turns_axis = False
+    # the code where both roll on each other and nothing carries both axes
+    without_carrier = "mesh_parts"
     # how the second hangs on the first: "fixed" to it, "turning" about an axis of it; "": it rolls, or ``joints`` tells
     bond = ""
 

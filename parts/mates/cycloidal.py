@@ -57,6 +57,8 @@ class CycloidalMating(Touching):
     disc: CycloidalDisc
     turned_lobes: int
 
+    without_carrier = "disc_on_no_eccentric"
+
     @property
     def holds(self) -> tuple[str, ...]:
         """The ring."""

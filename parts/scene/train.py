@@ -280,7 +280,7 @@ def _meshes(
             if bodies.of(joint.first) == bodies.of(joint.second):
                 raise ParameterError(told, joint.second, "rolls_on_itself")
             if shared is None:
-                raise ParameterError(told, joint.second, "mesh_parts", None, first=joint.first)
+                raise ParameterError(told, joint.second, mating.without_carrier, None, first=joint.first)
             # a ring that its mate holds turns nothing but what an eccentric carries
             if not (mating.holds and shared == FRAME):
                 uneven = _ahead(mating, joint, stand, matings, drives) if mating.uneven else None

@@ -341,6 +341,18 @@ def test_parts_that_do_not_belong_together(name: str) -> None:
     assert make_parts(scene(two, [mate]), "t")
 
 
+def test_a_disc_on_no_eccentric_is_told_which_mates_put_it_on_one() -> None:
+    """It was told to join a satellite to its carrier; a ring and its disc alone stand well until something drives."""
+    rolls = {"kind": "cycloidal_pair", "first": "ring", "second": "disc"}
+    carried = [{"kind": "coaxial", "first": "ring", "second": "eccentric"},
+               {"kind": "eccentric_bearing", "first": "eccentric", "second": "disc"}]  # fmt: skip
+    parts, drive = {key: PARTS[key] for key in ("ring", "disc", "eccentric")}, {"instance": "eccentric", "turns": 11.0}
+    with pytest.raises(SceneError, match=r"mates\[1\].second.*coaxial.*eccentric_bearing"):
+        checked(parts, [rolls, carried[1]], drives=[drive])
+    found = checked(parts, [rolls, *carried], drives=[drive])[1]["drives"][0]["train"]
+    assert found == {"eccentric": 11.0, "disc": pytest.approx(-1.0)}
+
+
 def test_seats_that_are_not_there() -> None:
     mate = {"kind": "pin_seat", "first": "ring", "second": "pin", "number": 13}
     with pytest.raises(SceneError, match=r"mates\[1\]\.number.*12 works"):
