@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from exporters.formats.readback import Loop, ReadMesh
@@ -39,40 +41,14 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
     corners = mesh.faces()
-    heights = corners[:, :, 2]
-    low, high = heights.min(axis=1), heights.max(axis=1)
-    upright = low != high
-    failures += _cap_failures(body, corners[~upright], declared)
-    worst, edges = 0.0, [np.inf]
-    border = 0.0
-    between = [body.height(w) for w in body.walls if not body.is_upright(w)]
-    for (start, end, aslant), walls in _walls_by_height(body):
-        pair = start, end
-        mine = upright & (low >= pair[0]) & (high <= pair[1])
-        if not aslant:
-            mine &= (low == pair[0]) & (high == pair[1])
-            if any(a[0] < pair[1] and a[1] > pair[0] for a in between):
-                # a slice of a screw surface or of a chamfer may stand between the same heights
-                mine &= _stands(mesh, mesh.triangles)
-        upright &= ~mine
-        for verdict, length in _verify_walls(mesh, mesh.triangles[mine], pair, body, walls, declared, tolerance):
-            failures += verdict.failures
-            worst = max(worst, verdict.measured.get("max_deviation", np.inf))
-            edges.append(verdict.measured.get("shortest_edge", np.inf))
-            border = max(border, length)
-    for wall in body.walls:
-        if not body.is_screw(wall):
-            continue
-        from exporters.verification.twisted import verify_twisted
-
-        mine = upright & (low >= body.height(wall)[0]) & (high <= body.height(wall)[1])
-        upright &= ~mine
-        verdict = verify_twisted(mesh, mesh.triangles[mine], body, wall, declared, tolerance)
+    failures += _cap_failures(body, corners[np.ptp(corners[:, :, 2], axis=1) == 0], declared)
+    worst, edges, border = 0.0, [np.inf], 0.0
+    for verdict, length in _wall_verdicts(mesh, body, declared, tolerance):
         failures += verdict.failures
-        worst = max(worst, verdict.measured["max_deviation"])
-        edges.append(verdict.measured["shortest_edge"])
-        border += profile_length(body.loop_profile(wall.lower))
-    failures += unless(not np.any(upright), "a wall does not end at the faces of the part")
+        worst = max(worst, verdict.measured.get("max_deviation", np.inf))
+        edges.append(verdict.measured.get("shortest_edge", np.inf))
+        border = max(border, length)
+    border += sum(profile_length(body.loop_profile(wall.lower)) for wall in body.walls if body.is_screw(wall))
     exact = body_moments(body).volume
     volume, told = measured["volume"], N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
     bound = border * declared * (levels[-1] - levels[0])
@@ -84,6 +60,31 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         "least_triangle_area": float(np.linalg.norm(doubled_normals(corners), axis=1).min() / 2),
     }
     return Verdict(measured, tuple(dict.fromkeys(failures)))
+
+
+def _wall_verdicts(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -> Iterator[tuple[Verdict, float]]:
+    """All triangles that are not flat against the walls, with the lengths of outlines that stand on each other."""
+    heights = mesh.faces()[:, :, 2]
+    low, high = heights.min(axis=1), heights.max(axis=1)
+    rest = low != high
+    between = [body.height(w) for w in body.walls if not body.is_upright(w)]
+    for (start, end, aslant), walls in _walls_by_height(body):
+        mine = rest & (low >= start) & (high <= end)
+        if not aslant:
+            mine &= (low == start) & (high == end)
+            if any(a[0] < end and a[1] > start for a in between):
+                # a slice of a screw surface or of a chamfer may stand between the same heights
+                mine &= _stands(mesh, mesh.triangles)
+        rest &= ~mine
+        yield from _verify_walls(mesh, mesh.triangles[mine], (start, end), body, walls, declared, tolerance)
+    for wall in filter(body.is_screw, body.walls):
+        from exporters.verification.twisted import verify_twisted
+
+        mine = rest & (low >= body.height(wall)[0]) & (high <= body.height(wall)[1])
+        rest &= ~mine
+        yield verify_twisted(mesh, mesh.triangles[mine], body, wall, declared, tolerance), 0.0
+    failures = unless(not np.any(rest), "a wall does not end at the faces of the part")
+    yield Verdict({"max_deviation": 0.0}, tuple(failures)), 0.0
 
 
 def _within_aslant(body: Body, z: Real) -> Flags:

@@ -72,6 +72,13 @@ class ReadBack(Protocol):
         """Corners (n, 3, 3) of its triangles, mm; n = 0 where it has none."""
 
 
+def outline_at(file: ReadBack, height: float, missing: str, number: int = 1) -> Complex:
+    """Points along the outermost outline at a height, mm, or the ``number``-th; ``missing``: what is wrong without."""
+    loops = sorted(file.section(height), key=lambda loop: loop.size)
+    refuse_if(len(loops) < number, missing)
+    return outline_points(loops[-number])
+
+
 def outline_points(loop: ReadLoop) -> Complex:
     """Points along an outline, mm."""
     import numpy as np

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, outline_points, refuse_if
+from parts.base.readback import Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -30,17 +30,13 @@ class GrooveProbe(Record):
         from geometry.gears.belts.pulley import pulley_side
         from geometry.gears.mesh.search import gear_outline
 
-        pulley, loops = self.pulley, sorted(file.section(self.height), key=lambda loop: loop.size)
-        refuse_if(not loops, "there are no teeth for a belt")
-        pitch = pulley.pitch_angle
+        pulley, pitch = self.pulley, self.pulley.pitch_angle
+        points = outline_at(file, self.height, "there are no teeth for a belt")
         # seen from tooth 1 its groove is half a pitch below
         centre = (pulley.outer_radius - pulley.depth / 2) * np.exp(-0.5j * pitch)
         radius = abs(float(gear_outline(pulley_side(pulley)).feet(np.array([centre])).distance[0]))
-        points = outline_points(loops[-1])
         points *= np.exp(-1j * pitch * np.round((np.angle(points) + pitch / 2) / pitch))
         gap = float(np.abs(points - centre).min()) - radius
         allowed = declared + offset + _ROUNDING * pulley.pitch_radius
-        return Probed(
-            {"pin_gap": gap},
-            tuple(unless(gap >= -allowed, "the gap between pins and grooves is {gap:.6g} mm", gap=gap)),
-        )
+        failures = unless(gap >= -allowed, "the gap between pins and grooves is {gap:.6g} mm", gap=gap)
+        return Probed({"pin_gap": gap}, tuple(failures))

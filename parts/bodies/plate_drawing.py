@@ -95,23 +95,30 @@ def part_drawing(
     for k, one in enumerate(circles, 1):
         rounds.append(Round(f"circle.{k}", 0j, one.circle / 2))
     numbers = [Note(centre, str(k), about=radius) for k, (centre, radius) in enumerate(listed, 1)]
-    # sizes stand below and on the left
+    cams = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
+    notes = _thickness(curves, subject), *_working_sign([*working, *cams], subject), *numbers
+    return PartDrawing(
+        (View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), notes),), requirements(subject, *words)
+    )
+
+
+def _thickness(curves: Sequence[Curve], subject: Subject) -> Note:
+    """The thickness, on the right: sizes stand below and on the left."""
     straight = (c for c in curves if isinstance(c, Line))
     wall = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
     at = farthest(curves, 1) if wall is None else (wall.start + wall.end) / 2
-    notes = [Note(at, f"s {subject.say(subject.part.face_width)}")]
-    cams = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
-    if worked := [*working, *cams]:
-        # in the middle of the longest piece
-        curve = max(worked, key=_length)
+    return Note(at, f"s {subject.say(subject.part.face_width)}")
+
+
+def _working_sign(surfaces: Sequence[Curve], subject: Subject) -> Iterator[Note]:
+    """The sign of working surfaces, where there are some, in the middle of the longest piece."""
+    if surfaces:
+        curve = max(surfaces, key=_length)
         first, last = curve.domain
         places = [first + share * (last - first) for share in (0.5, 0.25, 0.75)]
         # the material lies on the left
         (at, free), *also = [(complex(curve.point(t)), -1j * complex(curve.tangent(t))) for t in places]
-        text = subject.rough(subject.wishes.flank_roughness)
-        notes.append(Note(at, text, is_rough=True, free=free, also=tuple(also)))
-    view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), (*notes, *numbers))
-    return PartDrawing((view,), requirements(subject, *words))
+        yield subject.worked(at, free=free, also=tuple(also))
 
 
 def datum_of(region: Region, circles: Sequence[HoleCircle] = ()) -> tuple[complex, str]:

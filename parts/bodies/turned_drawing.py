@@ -161,6 +161,20 @@ def _circled(half: HalfSection, holes: HubHoles) -> list[Hole]:
     return [hole for hole in half.holes if all(abs(hole.centre - centre) > _SAME * 10 for centre in alone)]
 
 
+def _pocket_sizes(half: HalfSection, low: float, corners: set[float]) -> Iterator[Size]:
+    """Where along the axis keyways and flats begin, from the lower end on, and how long they are; those alike once.
+
+    What ends at ``corners``, where a step does, is told from there.
+    """
+    alike = dict.fromkeys((round(p.low, 9), round(p.high, 9), p.is_flat) for p in half.pockets)
+    for k, (first, last, is_flat) in enumerate(alike, 1):
+        name, told = f"{'flat' if is_flat else 'keyway'}.{k}", {first, last} & corners
+        if len(told) < 2:
+            yield Size(f"{name}.length", complex(first), complex(last), "above")
+        if not told:
+            yield Size(f"{name}.at", complex(low), complex(first), "above")
+
+
 def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject, *, is_shaft: bool, cut: bool) -> View:
     """The view across the axis."""
     strokes: list[Stroke] = []
@@ -193,19 +207,10 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     told = turned_sizes(loop, fits, subject.language, lambda curve: curve not in inner)
     # what a table has instead of diameters tells no thread
     sizes = [*told.sizes, *(_thread_size(one, k) for k, one in enumerate(own, 1) if listed and one.before != "Ø")]
-    shown, corners = dict[tuple[float, float, bool], int](), {round(start_point(curve).real, 9) for curve in outer}
     for pocket in half.pockets:
         if pocket not in notched:
             strokes += _seen_flat(half, pocket, cut=cut) if pocket.is_flat else _seen_slot(half, pocket, cut=cut)
-        shown.setdefault((round(pocket.low, 9), round(pocket.high, 9), pocket.is_flat), len(shown) + 1)
-    for (first, last, is_flat), k in shown.items():
-        ends, name = (complex(first), complex(last)), f"{'flat' if is_flat else 'keyway'}.{k}"
-        # what ends where a step does is told from there
-        told_ends = {first, last} & corners
-        if len(told_ends) < 2:
-            sizes.append(Size(f"{name}.length", *ends, "above"))
-        if not told_ends:
-            sizes.append(Size(f"{name}.at", complex(low), ends[0], "above"))
+    sizes += _pocket_sizes(half, low, {round(start_point(curve).real, 9) for curve in outer})
     drilled: list[Loop] = []
     for radius in sorted({round(abs(hole.centre), 9) for hole in _circled(half, holes)}):
         found = [hole for hole in _circled(half, holes) if abs(abs(hole.centre) - radius) < _SAME * 10]

@@ -92,8 +92,7 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
         ]
         if way > 0:
             depth = Size("groove_depth", complex(floor, high), complex(top, high), "above")
-            words = subject.rough(subject.wishes.flank_roughness)
-            rough = tuple(Note(complex((floor + top) / 2, wall), words, is_rough=True) for wall in (low, high))
+            rough = tuple(subject.worked(complex((floor + top) / 2, wall)) for wall in (low, high))
     section = section.plus(strokes, hatched, sizes=[depth], notes=rough)
     face = face.plus((VISIBLE, s.curve) for wall in walls for s in wall.segments())
     return PartDrawing((section, face, *others), requirements(subject, *directions(disk.holes, subject, "zero_x")))

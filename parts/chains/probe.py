@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, outline_points, refuse_if
+from parts.base.readback import Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -28,15 +28,11 @@ class RollerProbe(Record):
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """The least gap to its rollers, of all gaps at once; see ``parts.base.readback.Probe``."""
         sprocket = self.sprocket
-        loops = sorted(file.section(self.height), key=lambda loop: loop.size)
-        refuse_if(not loops, "there are no teeth for a chain")
         pitch = sprocket.pitch_angle
-        points = outline_points(loops[-1]) * np.exp(-0.5j * pitch)
+        points = outline_at(file, self.height, "there are no teeth for a chain") * np.exp(-0.5j * pitch)
         points *= np.exp(-1j * pitch * np.round(np.angle(points) / pitch))
         gap = float(np.abs(points - sprocket.pitch_radius).min()) - sprocket.chain.roller_diameter / 2
         wanted = sprocket.gap.depth - sprocket.chain.roller_diameter / 2
         allowed = declared + offset + _ROUNDING * sprocket.pitch_radius
-        return Probed(
-            {"roller_gap": gap},
-            tuple(unless(gap >= wanted - allowed, "the gap between rollers and teeth is {gap:.6g} mm", gap=gap)),
-        )
+        failures = unless(gap >= wanted - allowed, "the gap between rollers and teeth is {gap:.6g} mm", gap=gap)
+        return Probed({"roller_gap": gap}, tuple(failures))

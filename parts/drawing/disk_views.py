@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from geometry.base.record import replace
 from geometry.curves.line_arc import Arc
@@ -11,8 +11,11 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
 from parts.drawing.extent import reach
-from parts.drawing.wheel_views import PITCH, Groove, Wheel, wheel_views
-from parts.drawing.working import PartDrawing, Round, Subject, requirements
+from parts.drawing.wheel_views import PITCH, Groove, Wheel, ring_face, ring_section, wheel_views
+from parts.drawing.working import PartDrawing, Round, Stroke, Subject, requirements
+
+# where a circle about the axis has its size, the first that has room
+_AROUND = (-60.0, -120.0, -30.0, 210.0)
 
 
 def disk_drawing(
@@ -35,8 +38,7 @@ def disk_drawing(
         return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, "")))
     bare = Wheel(shape, holes, (0.0, 0.0), outline)
     rounds = tuple(
-        Round(name.removesuffix("_diameter"), 0j, subject.part.circles[name] / 2, angles=(-60.0, -120.0, -30.0, 210.0))
-        for name in circles
+        Round(name.removesuffix("_diameter"), 0j, subject.part.circles[name] / 2, angles=_AROUND) for name in circles
     )
     radii, root = subject.part.circles, None
     tip, has_teeth = (reach(outline, math.pi / 2), reach(outline, -math.pi / 2)), PITCH in (one.name for one in rounds)
@@ -52,3 +54,18 @@ def disk_drawing(
         sized = [one for one in views[1].rounds if one not in rounds[1:]]
         views = views[0], replace(views[1], rounds=tuple(sized)), *views[2:]
     return PartDrawing(views, requirements(subject, *directions(holes, subject, zero, teeth)))
+
+
+def ring_drawing(
+    subject: Subject, radii: tuple[float, float, float], holes: HubHoles, circles: Mapping[str, float],
+    strokes: Sequence[Stroke], zero: str, teeth: int,
+) -> PartDrawing:  # fmt: skip
+    """Section and face of a ring that works inside, where ``radii`` (see ``ring_section``) have it farthest out.
+
+    ``circles``: radii with sizes, mm; ``strokes``: of the inside on its face; ``zero``, ``teeth``: as a disk has them.
+    """
+    section, face = ring_section(subject.part.face_width, radii, holes, subject), ring_face(radii[2], holes, subject)
+    told = (Round(name, 0j, radius, angles=_AROUND) for name, radius in circles.items())
+    section = section.plus(notes=[subject.worked(complex(subject.part.face_width / 2, -radii[1]), free=1j)])
+    face = replace(face, rounds=(*told, *face.rounds)).plus(strokes)
+    return PartDrawing((section, face), requirements(subject, *directions(holes, subject, zero, teeth)))

@@ -514,11 +514,10 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
 def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> tuple[Note, ...]:
     """Signs of roughness of the teeth, or of the outside, and of the bore, whose wall stands at a height."""
     found = []
-    text = subject.rough(subject.wishes.flank_roughness)
     if wheel.reference is not None and not wheel.sunk:
-        found.append(Note(complex(wheel.shape.face_width, wheel.reference), text, is_rough=True, goes_on=True))
+        found.append(subject.worked(complex(wheel.shape.face_width, wheel.reference), goes_on=True))
     elif wheel.runs or (not wheel.stands and wheel.outline is not None):
-        found.append(Note(complex(0.7 * wheel.shape.face_width, wheel.tip[0]), text, is_rough=True))
+        found.append(subject.worked(complex(0.7 * wheel.shape.face_width, wheel.tip[0])))
     if wheel.holes.bore is not None:
         found.append(bore_note(at.hub, wall, subject.rough(subject.wishes.bore_roughness)))
     return tuple(found)

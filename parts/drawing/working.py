@@ -227,6 +227,11 @@ class Subject(Record):
         """A roughness as signs have it."""
         return f"Ra {self.say(value)}"
 
+    def worked(self, at: complex, *, goes_on: bool = False, free: complex = 0j, also: tuple[Spot, ...] = ()) -> Note:
+        """The sign of a working surface at a place of it, as ``Note`` has it."""
+        text = self.rough(self.wishes.flank_roughness)
+        return Note(at, text, is_rough=True, goes_on=goes_on, free=free, also=also)
+
     def words(self, key: str, **numbers: object) -> str:
         """A term of sheets."""
         return sheet_words(self.language, key, **numbers)

@@ -226,9 +226,7 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     section = ring_section(width, (tip, root, outer), holes, subject, ring.core_radius if bare else None)
     axes = [level((0.0, width), way * pitch) for way in ((1,) if bare else (1, -1))]
     told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
-    rough = Note(
-        complex(width, pitch if bare else -pitch), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True
-    )
+    rough = subject.worked(complex(width, pitch if bare else -pitch), goes_on=True)
     sizes = section.sizes[0], *(() if bare else (told,)), *section.sizes[1:]
     section = replace(
         section, axes=(*section.axes, *axes), sizes=sizes, notes=(rough,),
@@ -270,7 +268,7 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         Size("first_tooth", complex(-half, root), first + 1j * tip, "above"),
     ]
     axes = Line(complex(-half), complex(half)), Line(first + 1j * root, first + 1j * tip)
-    rough = Note(complex(half), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
+    rough = subject.worked(complex(half), goes_on=True)
     cut = Cut(half - pitch / 2, subject.letter())
     notes = [rough]
     # what is behind the near face lies aslant of it
@@ -433,8 +431,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(HIDDEN, edge) for edge in (*keyway_edges(made, low, high), *spline_cut(made, low, high).roots)]
         if isinstance(made, RoundBore):
             sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))
-    pitch = complex(half, worm.reference_radius)
-    rough = [Note(pitch, subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)]
+    rough = [subject.worked(complex(half, worm.reference_radius), goes_on=True)]
     if made is not None:
         rough.append(bore_note((low, high), -down, subject.rough(wishes.bore_roughness)))
     axes = (level((low, high), 0), *(level((-half, half), way * worm.reference_radius) for way in (1, -1)))

@@ -57,12 +57,9 @@ class SplineProbe(Record):
         distance = distance_to_profile(points, mate)
         gap = float(np.where(inside == self.teeth, distance, -distance).min())
         wanted, allowed = self.bore.clearance - offset, declared + _ROUNDING * self.bore.reach
-        return Probed(
-            {"gap": gap},
-            tuple(
-                unless(abs(gap - wanted) <= allowed, "the mate of the spline has a clearance of {gap:.6g} mm", gap=gap)
-            ),
-        )
+        well = abs(gap - wanted) <= allowed
+        failures = unless(well, "the mate of the spline has a clearance of {gap:.6g} mm", gap=gap)
+        return Probed({"gap": gap}, tuple(failures))
 
 
 def _reach(loop: ReadLoop) -> float:

@@ -28,7 +28,6 @@ from parts.drawing.wheel_views import (
 from parts.drawing.working import (
     AXIS,
     VISIBLE,
-    Note,
     PartDrawing,
     Round,
     Size,
@@ -103,7 +102,7 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
     strokes += [(VISIBLE, line) for bar in pins for line in bar]
     longer = tuple(Line(a.start, complex(max(a.end.real, length), a.end.imag)) for a in section.axes)
     axes = [Line(complex(0.0, way * circle), complex(length, way * circle)) for way in (1, -1)]
-    runs = _runs(thick + made.length / 2, circle + radius, subject)
+    runs = subject.worked(complex(thick + made.length / 2, circle + radius), free=1j)
     section = replace(section, axes=longer).plus(strokes, hatched, axes, sizes, notes=[runs])
     return joined(section, *faces), _with_pins(face, made, subject), *others
 
@@ -137,7 +136,8 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
     if abs(inner - circle) > _SAME:
         sizes.append(Size("pin_circle_diameter", -1j * circle, 1j * circle, "left", "Ø"))
         axes = [Line(complex(0.0, way * circle), complex(width, way * circle)) for way in (1, -1)]
-    section = replace(section, notes=(_runs(width / 2, -begins, subject),)).plus(axes=axes, sizes=sizes)
+    runs = subject.worked(complex(width / 2, -begins), free=1j)
+    section = replace(section, notes=(runs,)).plus(axes=axes, sizes=sizes)
     seats = ring.region(0.0).holes[0]
     centres = ring.pin_centres()
     words = subject.words("seats_of" if is_seat else "pins_of", count=len(centres))
@@ -173,17 +173,9 @@ def _pin(keys: PinSpec, disc: RoundDisc, subject: Subject) -> tuple[View, ...]:
         return wheel_views(Wheel(WheelShape(length), disc.holes, (radius, radius), None, runs=True), subject)[:1]
     side = block(0.0, length, 0.0, radius)
     strokes = [*outlined(side), *outlined(below(side))]
-    wishes = subject.wishes
     sizes = (
-        Size("diameter", -1j * radius, 1j * radius, "left", "Ø", wishes.shaft),
+        Size("diameter", -1j * radius, 1j * radius, "left", "Ø", subject.wishes.shaft),
         Size("length", -1j * radius, complex(length, -radius), "below"),
     )
-    return (
-        View(tuple(strokes), (), (Line(0j, complex(length)),), sizes, notes=(_runs(0.7 * length, radius, subject),)),
-    )
-
-
-def _runs(z: float, radius: float, subject: Subject) -> Note:
-    """The sign of a working surface at a place of the section."""
-    words = subject.rough(subject.wishes.flank_roughness)
-    return Note(complex(z, radius), words, is_rough=True, free=1j)
+    runs = subject.worked(complex(0.7 * length, radius), free=1j)
+    return (View(tuple(strokes), (), (Line(0j, complex(length)),), sizes, notes=(runs,)),)

@@ -13,21 +13,18 @@ from geometry.gears.pins.geneva_driver import GenevaDriver
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
-from parts.drawing.disk_views import disk_drawing
+from parts.drawing.disk_views import disk_drawing, ring_drawing
 from parts.drawing.revolved import below, block, joined, outlined
 from parts.drawing.wheel_views import (
     Wheel,
     circle_of,
     goes_on,
-    ring_face,
-    ring_section,
     section_view,
     wheel_views,
 )
 from parts.drawing.working import (
     AXIS,
     VISIBLE,
-    Note,
     PartDrawing,
     Round,
     Size,
@@ -73,15 +70,9 @@ def _wheel(wheel: GenevaWheel, keys: GenevaWheelSpec, subject: Subject) -> PartD
 def _ring(wheel: GenevaWheel, subject: Subject) -> PartDrawing:
     """Cut through the end of a slot."""
     end, outer = wheel.slot_end + wheel.half_width, wheel.outer_radius
-    section = ring_section(subject.part.face_width, (wheel.tip_radius, end, outer), wheel.holes, subject)
-    rough = subject.rough(subject.wishes.flank_roughness)
-    runs = Note(complex(subject.part.face_width / 2, -end), rough, is_rough=True, free=1j)
-    section = section.plus(notes=[runs])
-    face = ring_face(outer, wheel.holes, subject)
-    told = Round("tip_diameter", 0j, wheel.tip_radius, angles=(-60.0, -120.0, -30.0, 210.0))
-    face = replace(face, rounds=(told, *face.rounds)).plus((VISIBLE, edge) for edge in wheel.outline())
-    slots = wheel.drive.number_of_slots
-    return PartDrawing((section, face), requirements(subject, *directions(wheel.holes, subject, "zero_slot", slots)))
+    strokes = [(VISIBLE, edge) for edge in wheel.outline()]
+    radii, slots = (wheel.tip_radius, end, outer), wheel.drive.number_of_slots
+    return ring_drawing(subject, radii, wheel.holes, {"tip_diameter": wheel.tip_radius}, strokes, "zero_slot", slots)
 
 
 def _with_slots(face: View, wheel: GenevaWheel, language: str) -> View:
@@ -170,7 +161,6 @@ def _with_disc(section: View, driver: GenevaDriver, subject: Subject) -> View:
     if ends[0] != ends[1]:
         sizes.append(Size("pin_height", complex(0.0, crank + pin), complex(ends[1], crank + pin), "above"))
     axes = Line(complex(0.0, crank), complex(ends[1], crank)), Line(0j, complex(max(ends)))
-    rough = subject.rough(subject.wishes.flank_roughness)
-    runs = [Note(complex(low + driver.pin_length / 2, crank + pin), rough, is_rough=True, free=1j)]
-    runs.append(Note(complex(low + driver.width / 2, -across), rough, is_rough=True, free=-1j))
+    runs = [subject.worked(complex(low + driver.pin_length / 2, crank + pin), free=1j),
+            subject.worked(complex(low + driver.width / 2, -across), free=-1j)]  # fmt: skip
     return joined(section.plus(strokes, [*hatched, *pins], axes, sizes, notes=runs), low)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, outline_points, refuse_if
+from parts.base.readback import Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
     from geometry.gears.pins.geneva import GenevaWheel
-    from parts.base.readback import ReadBack, ReadLoop
+    from parts.base.readback import ReadBack
 
 # places along a slot
 _PLACES = 65
@@ -32,7 +32,8 @@ class SlotProbe(Record):
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Both by the distances of the outline's points, all slots at once; see ``parts.base.readback.Probe``."""
         wheel, drive = self.wheel, self.wheel.drive
-        points, pitch = outline_points(self._loop(file)), 2 * drive.half_slot_angle
+        number, pitch = 2 if drive.internal else 1, 2 * drive.half_slot_angle
+        points = outline_at(file, self.height, "there are no slots for the pin to pass", number)
         places = np.linspace(drive.mouth_radius, drive.deepest_radius, _PLACES)
         slots = points * np.exp(-1j * pitch * np.round(np.angle(points) / pitch))
         pin = min(float(np.abs(slots - place).min()) for place in places) - wheel.pin_diameter / 2
@@ -46,10 +47,3 @@ class SlotProbe(Record):
             *unless(disc >= wanted[1] - allowed, "the gap between disc and locking arcs is {gap:.6g} mm", gap=disc),
         ]
         return Probed({"slot_gap": pin, "locking_gap": disc}, tuple(failures))
-
-    def _loop(self, file: ReadBack) -> ReadLoop:
-        """The outermost outline; of a ring the next one."""
-        loops = sorted(file.section(self.height), key=lambda loop: loop.size)
-        number = 2 if self.wheel.drive.internal else 1
-        refuse_if(len(loops) < number, "there are no slots for the pin to pass")
-        return loops[-number]

@@ -8,10 +8,9 @@ import math
 from geometry.base.record import replace
 from geometry.curves.line_arc import Arc
 from geometry.gears.ratchets.wheel import RatchetWheel
-from parts.drawing.directions import directions
-from parts.drawing.disk_views import disk_drawing
-from parts.drawing.wheel_views import circle_of, ring_face, ring_section
-from parts.drawing.working import AXIS, VISIBLE, Note, PartDrawing, Round, Size, Subject, View, arc_angles, requirements
+from parts.drawing.disk_views import disk_drawing, ring_drawing
+from parts.drawing.wheel_views import circle_of
+from parts.drawing.working import AXIS, VISIBLE, PartDrawing, Round, Size, Subject, View, arc_angles
 from parts.keys.wheel import shape_of
 from parts.ratchets.wheel import RatchetWheelSpec
 from parts.texts.sheets import counted_words
@@ -37,19 +36,10 @@ def part_drawing(subject: Subject) -> PartDrawing:
 
 def _ring(wheel: RatchetWheel, subject: Subject) -> PartDrawing:
     """Cut through the edge of a tooth."""
-    outer, width = wheel.outer_radius, subject.part.face_width
-    section = ring_section(width, (wheel.tip_radius, wheel.root_radius, outer), wheel.holes, subject)
-    rough = subject.rough(subject.wishes.flank_roughness)
-    section = section.plus(notes=[Note(complex(width / 2, -wheel.root_radius), rough, is_rough=True, free=1j)])
-    face = ring_face(outer, wheel.holes, subject)
-    told = [
-        Round(name, 0j, radius, angles=(-60.0, -120.0, -30.0, 210.0))
-        for name, radius in (("tip_diameter", wheel.tip_radius), ("root", wheel.root_radius))
-    ]
+    radii = wheel.tip_radius, wheel.root_radius, wheel.outer_radius
     strokes = [*((VISIBLE, edge) for edge in wheel.outline()), (AXIS, circle_of(wheel.root_radius))]
-    face = replace(face, rounds=(*told, *face.rounds)).plus(strokes)
-    teeth = wheel.number_of_teeth
-    return PartDrawing((section, face), requirements(subject, *directions(wheel.holes, subject, "zero_edge", teeth)))
+    told = {"tip_diameter": wheel.tip_radius, "root": wheel.root_radius}
+    return ring_drawing(subject, radii, wheel.holes, told, strokes, "zero_edge", wheel.number_of_teeth)
 
 
 def _with_teeth(face: View, wheel: RatchetWheel, language: str) -> View:

@@ -9,23 +9,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, outline_points, refuse_if
+from parts.base.readback import Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
+    from geometry.curves.curve import Complex
     from geometry.gears.ratchets.pawl import PawlShape
     from geometry.gears.ratchets.wheel import RatchetWheel
-    from parts.base.readback import ReadBack, ReadLoop
+    from parts.base.readback import ReadBack
 
 # rounding, as a part of the wheel's size
 _ROUNDING = 1e-9
 
 
-def _loop(file: ReadBack, height: float, number: int) -> ReadLoop:
-    """The outermost outline; of a ring the next one."""
-    loops = sorted(file.section(height), key=lambda loop: loop.size)
-    refuse_if(len(loops) < number, "there are no teeth")
-    return loops[-number]
+def _outline(file: ReadBack, height: float, wheel: RatchetWheel, number: int = 1) -> Complex:
+    """The outermost outline or the next one, of a pair that is free counter-clockwise."""
+    points = outline_at(file, height, "there are no teeth", number)
+    return points if wheel.ccw else points.conj()
 
 
 class ToothProbe(Record):
@@ -39,9 +39,7 @@ class ToothProbe(Record):
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """By the corners that the file has; see ``parts.base.readback.Probe``."""
         wheel = self.wheel
-        points = outline_points(_loop(file, self.height, 2 if wheel.internal else 1))
-        if not wheel.ccw:
-            points = points.conj()
+        points = _outline(file, self.height, wheel, 2 if wheel.internal else 1)
         normal, way = wheel.face_normal, wheel.face_way
         edge = wheel.tip_radius + offset * normal
         if offset < 0:
@@ -75,10 +73,8 @@ class SeatProbe(Record):
         from geometry.gears.ratchets.contact import RatchetContact
 
         pawl = self.pawl
-        points = outline_points(_loop(file, self.height, 1))
-        if not pawl.wheel.ccw:
-            points = points.conj()
-        placed = pawl.pivot - points * cmath.exp(1j * cmath.phase(pawl.towards_pivot))
+        turn = cmath.exp(1j * cmath.phase(pawl.towards_pivot))
+        placed = pawl.pivot - _outline(file, self.height, pawl.wheel) * turn
         gap = RatchetContact(pawl).seated(placed)
         allowed = declared + _ROUNDING * pawl.wheel.tip_radius
         failures = unless(abs(gap + offset) <= allowed, "seated, its gap to the teeth is {gap:.6g} mm", gap=gap)

@@ -14,7 +14,6 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.solids.hub_holes import least_wall
-from parts.base.part_keys import Density, Material
 from parts.cams.disk_cam.part import CamSpec, cam_of, greatest_radius
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees, mm
@@ -33,7 +32,7 @@ from parts.keys.cam import (
 from parts.keys.law import with_own_laws
 from parts.keys.timing_mark import PLACES
 from parts.recipes.making import Making, check_play, hole, place
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe
 
 # mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
 # plate beyond its contact; how much shorter the roller's pin is than what it holds
@@ -58,7 +57,7 @@ _SLOT_START = mm(
 _CLEARANCE = mm("of the slot on its pins and of holes on the dowels that turn in them", least=0, most=5)
 
 
-class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
+class CamModelKeys(ModelKeys, kw_only=True, tag="cam_model"):
     """Keys of ``cam_model``."""
 
     follower: Annotated[Literal["roller", "flat"], Meta(description="shape of the follower's end", examples=["roller"])]
@@ -80,8 +79,6 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     stem_width: Annotated[float, mm("width of the follower's stem", above=0, most=1000)] = 12.0
     slot_start: Annotated[float, _SLOT_START] | None = None
     cam_angle_deg: Annotated[float, degrees("cam angle at which it is drawn", least=-360, most=360)] = 0.0
-    material: Material | None = None
-    density: Density | None = None
 
 
 class _Making(Making):

@@ -18,14 +18,13 @@ from msgspec.structs import replace
 
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, limit
 from geometry.base.nearest import kept, nearest
-from parts.base.part_keys import Density, Material
 from parts.cams.disk_cam.part import USUAL_ROLLER_SHARE, CamSpec, cam_of, greatest_radius
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees, mm
 from parts.keys.cam import LeastCurvature
 from parts.keys.picture import MOST_POINTS, Picture
 from parts.recipes.making import Making, check_play, hole, place
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe, Table, Turns
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -62,7 +61,7 @@ _CRANK = mm("of the hand crank, to its handle; default: 30, or what clears the p
 _SLIDE = mm("of the pen's slide, and of the table about its slot", above=0, most=200)
 
 
-class DrawingMachineKeys(RecipeKeys, kw_only=True, tag="drawing_machine"):
+class DrawingMachineKeys(ModelKeys, kw_only=True, tag="drawing_machine"):
     """Keys of ``drawing_machine``."""
 
     picture: Annotated[Picture, Meta(max_length=MOST_POINTS, description=_PICTURE)]
@@ -85,8 +84,6 @@ class DrawingMachineKeys(RecipeKeys, kw_only=True, tag="drawing_machine"):
     pen_diameter: Annotated[float, mm("of the pen, and of its hole", least=1, most=50)] = 8.0
     pen_length: Annotated[float, mm("of the pen", least=10, most=500)] = 100.0
     crank_length: Annotated[float, _CRANK] | None = None
-    material: Material | None = None
-    density: Density | None = None
 
 
 class _Making(Making):

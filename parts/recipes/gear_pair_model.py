@@ -10,10 +10,9 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
 from parts.recipes.making import Making, check_play
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe
 
 # mm: of the frame about its axles, and at least beyond the hole of one; its corners
 _BESIDE, _WALL, _CORNER = 10.0, 5.0, 5.0
@@ -24,7 +23,7 @@ _Shift = Annotated[float, Meta(ge=-10, le=10)]
 _SHIFTS = Meta(description="profile shift coefficients x1, x2", examples=[[0.694, 0.384]])
 
 
-class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
+class GearPairModelKeys(ModelKeys, kw_only=True, tag="gear_pair_model"):
     """Keys of ``gear_pair_model``."""
 
     teeth: Annotated[tuple[Annotated[int, Meta(ge=3, le=10_000)], Annotated[int, Meta(ge=3, le=10_000)]], _TEETH]
@@ -34,8 +33,6 @@ class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
     clearance: Annotated[float, mm("of the gears' bores on the dowels", least=0, most=5)] = 0.2
     axle_diameter: Annotated[float, mm("of the dowels on which the gears turn", least=0.5, most=200)] = 6.0
-    material: Material | None = None
-    density: Density | None = None
 
 
 def _expanded(keys: GearPairModelKeys) -> Expansion:

@@ -23,7 +23,6 @@ from msgspec import Meta, convert, field
 from geometry.base.errors import LateError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Draft, Record, replace
-from parts.base.part_keys import Density, Material
 from parts.base.schema import tried, value_at
 from parts.keys.base import degrees, mm, start
 from parts.keys.levers import (
@@ -39,7 +38,7 @@ from parts.keys.levers import (
 )
 from parts.mates.pages.lever_tasks import chosen
 from parts.recipes.making import WAYS, Making, check_play, hole, place
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe, Table, Turns
 
 if TYPE_CHECKING:
     from geometry.curves.curve import Complex, Real
@@ -68,7 +67,7 @@ _CAPS = Meta(description="on the free ends of dowels, where there is room: they 
 _CLEARANCE = mm("of slots and holes on the dowels that run in them", least=0, most=5)
 
 
-class LeverModelKeys(RecipeKeys, kw_only=True, tag="lever_model"):
+class LeverModelKeys(ModelKeys, kw_only=True, tag="lever_model"):
     """Keys of ``lever_model``."""
 
     mechanism: Annotated[MechanismTable, MECHANISM, start(_CRANK_ROCKER)] = field(default_factory=MechanismTable)
@@ -85,8 +84,6 @@ class LeverModelKeys(RecipeKeys, kw_only=True, tag="lever_model"):
     pin_diameter: Annotated[float, mm("of the dowels that join links", least=0.5, most=200)] = 4.0
     hand_crank: Annotated[bool, _HAND_CRANK] = True
     caps: Annotated[bool, _CAPS] = True
-    material: Material | None = None
-    density: Density | None = None
 
 
 class _Link(Draft):

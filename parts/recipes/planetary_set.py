@@ -26,12 +26,11 @@ from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
 from geometry.gears.teeth.helix import Hand
 from geometry.gears.teeth.transverse import transverse_angle
-from parts.base.part_keys import Density, Material
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import Double, HelixAngle
 from parts.keys.mate import further
 from parts.recipes.making import Making, check_play, hole, holes_on, mark, on_circle
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
 _WISH = Requirements(0.25, 1.1)
@@ -76,7 +75,7 @@ _SECOND_SHAFT = mm(
 _FRAME = Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
 
 
-class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
+class PlanetarySetKeys(ModelKeys, kw_only=True, tag="planetary_set"):
     """Keys of ``planetary_set``."""
 
     scheme: Annotated[Literal["james", "one_external_one_internal", "two_internal", "david"], _SCHEME] = "james"
@@ -104,8 +103,6 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     second_shaft_diameter: Annotated[float, _SECOND_SHAFT] | None = None
     clearance: Annotated[float, mm("of bores on the pins and shafts that turn in them", least=0, most=100)] = 0.0
     frame: Annotated[bool, _FRAME] = False
-    material: Material | None = None
-    density: Density | None = None
 
 
 class _Wheel(Record):

@@ -438,7 +438,12 @@ class _Making(Making):
         self._made("screw_59", "screw_59_down")
         self._circle("disk_2", "shield_7_screw", "screw_59", 16, s["r_53"], tip, 11.25)
         self._circle("shield_8", "shield_8_screw", "screw_59", 16, s["r_8"], tip)
-        # rings that hold the balls of disk 3
+        self._balls()
+        self._ring_24()
+
+    def _balls(self) -> None:
+        """The rings that hold the balls of disk 3, those balls, and the row under the body."""
+        s, t, arm = self.s, self.keys.disk_thickness, self.s["arm"]
         rear, fore = s["seat_33"] - s["h_33"], t - s["seat_33"]
         self._set("disk_2", "protective_ring", fore, arm, name="protective_ring_1")
         self._set("disk_2", "protective_ring", rear, arm, name="protective_ring_2")
@@ -456,8 +461,10 @@ class _Making(Making):
             self._row("disk_2", "small", k, z, arm)
         self._cage("large_cage", s["r_large"], int(s["large_balls"]))
         self._row("disk_2", "large", 1, s["z_ball"])
-        # ring 24 with the worm wheel and the outer races
-        h, wide = s["h_24"], keys.worm_wheel_width
+
+    def _ring_24(self) -> None:
+        """Ring 24 with the worm wheel and the outer races."""
+        s, h, wide = self.s, self.s["h_24"], self.keys.worm_wheel_width
         edges, through = [_round(2 * s["r_24"]), _round(2 * s["r_24_in"])], on_circle(12, s["r_53"])
         passing = [_round(M8[0], at) for at in through]
         bolts = [_round(8, at) for at in on_circle(24, s["r_41"])]

@@ -19,10 +19,9 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
-from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
 from parts.recipes.making import Making, hole, holes_on, module_to_span, on_circle, place, refused_by
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe, Turns
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
 # room for the balls between both disks
@@ -38,7 +37,7 @@ _ORIENTATION = Meta(description="what turns the platform; thesis: its wheels 6, 
 _WHEEL_WIDTH = mm("of the wheels, links and cranks that turn the platform", least=1, most=1000)
 
 
-class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kinematics"):
+class PowerModuleKinematicsKeys(ModelKeys, kw_only=True, tag="power_module_kinematics"):
     """Keys of ``power_module_kinematics``."""
 
     orientation: Annotated[Literal["cranks", "idlers", "thesis"], _ORIENTATION] = "cranks"
@@ -56,8 +55,6 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = 260.0
     turns_of_disk: Annotated[Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[Turns, Meta(description="how far the ring is turned")] = -2.0
-    material: Material | None = None
-    density: Density | None = None
 
 
 class _Sizes:

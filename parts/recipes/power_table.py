@@ -17,11 +17,10 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError
-from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
 from parts.keys.pins import MARGIN, most_of
 from parts.recipes.making import LOOSE, Making, hole, holes_on, mark, on_circle, place, refused_by
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
+from parts.recipes.recipe import Expansion, ModelKeys, Recipe, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
 _ROOT, _RIM = 1.25, 8.0
@@ -38,7 +37,7 @@ _WormWheelTeeth = Annotated[int, Meta(ge=20, le=1000)]
 _WORM_WHEEL_TEETH = Meta(description="of the worm wheels of disk 2 and of the ring; their worms have one start")
 
 
-class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
+class PowerTableKeys(ModelKeys, kw_only=True, tag="power_table"):
     """Keys of ``power_table``."""
 
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 2.25
@@ -59,8 +58,6 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     platform_size: Annotated[float, mm("side of the platform", above=0, most=2000)] = 84.0
     turns_of_disk: Annotated[Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[Turns, Meta(description="how far the ring is turned")] = -2.0
-    material: Material | None = None
-    density: Density | None = None
 
 
 class _Sizes:

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Generic, TypeVar
 from msgspec import Meta, Struct
 
 from geometry.base.record import Draft, Record, field
+from parts.base.part_keys import Density, Material
 from parts.base.texts import Message
 from parts.keys.base import IDENTIFIER
 from parts.recipes.names import Named
@@ -26,6 +27,13 @@ class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=T
     """Keys of every assembly."""
 
     name: Annotated[str, _NAME] | None = None
+
+
+class ModelKeys(RecipeKeys, kw_only=True):
+    """Keys of one whose parts are all made of the same."""
+
+    material: Material | None = None
+    density: Density | None = None
 
 
 class Expansion(Draft):

@@ -259,6 +259,22 @@ def unlike(
     return None
 
 
+def _tell_of_all(
+    told: SceneError, alone: Callable[[], Nearest | None], ends: Ends, mates: Sequence[MateKeys], part_of: PartOf
+) -> None:
+    """Tell a backlash that leaves no whole teeth with the gears of all mates of which that is so, and what all take.
+
+    ``alone``: what one mate takes.
+    """
+    specs = {name: end.keys for name, end in ends.items()}
+    pairs = [(m, MATES[str(m.__struct_config__.tag)], (part_of[m.first], part_of[m.second])) for m in mates]
+    held = [m for m, kind, pair in pairs if _joins(kind, specs, pair)]
+    pointed = _pointed(ends, held, part_of)
+    # here gears have names
+    told.numbers["gears"] = [*dict.fromkeys(gear for _, gears in pointed for gear in gears)]
+    told.offer(lambda: _taken_by_all([one for one, _ in pointed], ends, held, part_of) or alone())
+
+
 def pair_refused(
     refusal: ParameterError,
     ends: Ends,
@@ -270,23 +286,16 @@ def pair_refused(
 ) -> SceneError:
     """The refusal of a mate under the key of the scene, its own or that of a part; ``place``: where the mate stands.
 
-    What it offers is tried once: a key of the mate on both parts, one of a part on all its ``mates``. A backlash that
-    leaves no whole teeth is told with the gears of all mates of which that is so, and with what all of them take.
+    What it offers is tried once: a key of the mate on both parts, one of a part on all its ``mates``.
     """
-    kind = MATES[str(mate.__struct_config__.tag)]
     owner, _, key = refusal.name.partition(".")
+    specs = {name: end.keys for name, end in ends.items()}
     if owner == "mate":
-        told = placed(source, place, refusal.renamed(key), unit_of(kind.keys, key))
+        told = placed(source, place, refusal.renamed(key), unit_of(type(mate), key))
         alone = partial(_tried, refusal, lambda value: mated(ends, [tried(mate, key, value)], part_of))
         told.offer(alone)
         if refusal.code == "backlash_leaves_no_teeth":
-            specs = {name: end.keys for name, end in ends.items()}
-            pairs = [(m, MATES[str(m.__struct_config__.tag)], (part_of[m.first], part_of[m.second])) for m in mates]
-            held = [m for m, its_kind, pair in pairs if _joins(its_kind, specs, pair)]
-            pointed = _pointed(ends, held, part_of)
-            # here gears have names
-            told.numbers["gears"] = [*dict.fromkeys(gear for _, gears in pointed for gear in gears)]
-            told.offer(lambda: _taken_by_all([one for one, _ in pointed], ends, held, part_of) or alone())
+            _tell_of_all(told, alone, ends, mates, part_of)
         return told
     owner, key = ("first", key) if owner == "first" else ("second", refusal.name)
     part = part_of[mate.first if owner == "first" else mate.second]
@@ -294,16 +303,16 @@ def pair_refused(
 
     def works(value: object, held: Sequence[MateKeys]) -> None:
         changed = tried(spec, key, value)
-        specs = {**{name: end.keys for name, end in ends.items()}, part: changed}
-        changed_end = End(changed, thing_of(part, changed, specs, mates, part_of))
-        check_fit(part, {**ends, part: changed_end}, specs, held, part_of)
+        others = {**specs, part: changed}
+        changed_end = End(changed, thing_of(part, changed, others, mates, part_of))
+        check_fit(part, {**ends, part: changed_end}, others, held, part_of)
 
     given, theirs = refusal.value, getattr(ends[part_of[mate.first]].keys, key, None)
     alike = owner == "second" and theirs is not None and refusal.nearest == Nearest(theirs)
 
     def stands(first: str) -> None:
         elsewhere = [m for m in mates if part not in (part_of[m.first], part_of[m.second])]
-        check_fit(first, ends, {name: end.keys for name, end in ends.items()}, elsewhere, part_of)
+        check_fit(first, ends, specs, elsewhere, part_of)
 
     if (
         alike
@@ -322,7 +331,6 @@ def pair_refused(
     found = refusal.nearest
     if owner == "second" and found is not None and found.side == "exactly" and told.nearest is None:
         # what the first tells of its mate may be wrong
-        specs = {name: end.keys for name, end in ends.items()}
         return unlike(part_of[mate.first], specs, mates, part_of, source) or told
     return told
 

@@ -393,6 +393,25 @@ class _Mesher:
 
     def _patch_group(self, ends: dict[int, tuple[Triangles, bool]], patch: Patch | None, *, flip: bool) -> None:
         """Patches whose edges (n,) are of the same bundles, with the way they run; an end that has none is a point."""
+        grid, names, points = self._around(ends)
+        ring = np.concatenate([n[:, :-1] for n in names], axis=1)
+        if patch is None:
+            triangles, inside = _ruled(grid, points)
+            error = self.tolerance
+        else:
+            places = np.concatenate([p[:, :-1] for p in points], axis=1)
+            triangles, inner, error = self._fine_enough(grid, places, patch)
+            inside = patch.scattered(inner)[0]
+        numbers = np.concatenate([ring, self._added(inside)], axis=1)
+        found = _oriented(numbers[:, triangles].reshape(-1, 3), flip)
+        if patch is None or self.proof is None:
+            self._keep(found, error, "sampled")
+        else:
+            self._keep(found, 0.0, "certified")
+            self.unproven.append(found)
+
+    def _around(self, ends: dict[int, tuple[Triangles, bool]]) -> tuple[Grid, list[Triangles], list[Real]]:
+        """The sides of such patches, and the numbers and places (n, k, 3) of the points along those that have edges."""
         sides, names, points = [], [], []
         for k in range(4):
             shares, kept = np.array([0.0, 1.0]), 1
@@ -411,27 +430,24 @@ class _Mesher:
                 (0 * shares, 1 - shares),
             ][k]
             sides.append((shares, np.column_stack([u, v]), np.arange(kept)))
-        grid = Grid(tuple(sides))
-        ring = np.concatenate([n[:, :-1] for n in names], axis=1)
-        places = np.concatenate([p[:, :-1] for p in points], axis=1)
-        if patch is None:
-            counts = [len(shares) - 1 for shares, _, _ in sides]
-            triangles, inner = grid_between(grid, max(counts[0], counts[2]), max(counts[1], counts[3]))
-            low, high = points[0], points[2][:, ::-1]
-            s, t = inner.T
-            at = np.interp(s, grid.sides[0][0], np.arange(low.shape[1])).round().astype(int)
-            inside = low[:, at] * (1 - t)[:, None] + high[:, at] * t[:, None]
-            numbers = np.concatenate([ring, self._added(inside)], axis=1)
-            self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), self.tolerance, "sampled")
-            return
+        return Grid(tuple(sides)), names, points
+
+    def _fine_enough(self, grid: Grid, places: Real, patch: Patch) -> tuple[Triangles, Real, float]:
+        """Triangles and the places within of patches with ``places`` (n, k, 3) along their sides, and their error.
+
+        Raises
+        ------
+        ConvergenceError
+            There would be too many.
+        """
         which = _templates(patch.poles)
         template = patch.rows(which)
         bends, key = Bends(template), _key(template.poles)
         sag = self.passed.get(key, self.tolerance)
-        along, across = ((sides[k][0][1:-1], 1 - sides[k + 2][0][-2:0:-1]) for k in (0, 1))
+        along, across = ((grid.sides[k][0][1:-1], 1 - grid.sides[k + 2][0][-2:0:-1]) for k in (0, 1))
         for _ in range(_FINER):
             t, rows = bends.rows(sag)
-            if self.count + 2 * len(ring) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
+            if self.count + 2 * len(places) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
                 raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
             # where rows of unlike lengths fold, all are as fine as the finest of them and of both sides, then as many
             # as the sides they run between have chords; where that is no better, fewer do
@@ -455,13 +471,7 @@ class _Mesher:
                 self.passed[key] = sag
                 break
             sag *= max(_SAFE * self.tolerance / error, _LEAST_SHARE)
-        numbers = np.concatenate([ring, self._added(patch.scattered(inner)[0])], axis=1)
-        found = _oriented(numbers[:, triangles].reshape(-1, 3), flip)
-        if self.proof is None:
-            self._keep(found, error, "sampled")
-        else:
-            self._keep(found, 0.0, "certified")
-            self.unproven.append(found)
+        return triangles, inner, error
 
 
 def _groups(keys: Triangles) -> list[Triangles]:
@@ -478,6 +488,16 @@ def _turns(own: Sequence[Chart], points: Real) -> tuple[Real, Real]:
     turns = np.angle(np.sum(flat * np.conj(flat[0]), axis=1))
     off = np.abs(flat * np.exp(-1j * turns)[:, None] - flat[0]) + np.abs(high - high[0])
     return turns, off.max(axis=1)
+
+
+def _ruled(grid: Grid, points: list[Real]) -> tuple[Triangles, Real]:
+    """Triangles of patches that are straight between two copies of a curve, and the places (n, k, 3) within them."""
+    counts = [len(shares) - 1 for shares, _, _ in grid.sides]
+    triangles, inner = grid_between(grid, max(counts[0], counts[2]), max(counts[1], counts[3]))
+    low, high = points[0], points[2][:, ::-1]
+    s, t = inner.T
+    at = np.interp(s, grid.sides[0][0], np.arange(low.shape[1])).round().astype(int)
+    return triangles, low[:, at] * (1 - t)[:, None] + high[:, at] * t[:, None]
 
 
 def _oriented(triangles: Triangles, flip: bool) -> Triangles:

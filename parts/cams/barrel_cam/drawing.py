@@ -97,7 +97,7 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
         sizes.append(Size("start_height", -1j * outer, edge, "below"))
     middle = (outer + inner) / 2
     at = complex(_wall(cam, LOWER, middle, 0.0), middle)
-    notes = [Note(at, subject.rough(wishes.flank_roughness), is_rough=True), Note(-1j * outer, "z = 0", free=-1 - 1j)]
+    notes = [subject.worked(at), Note(-1j * outer, "z = 0", free=-1 - 1j)]
     if holes.bore is not None:
         notes.append(bore_note((low, high), -walls[1], subject.rough(wishes.bore_roughness)))
     axes = (Line(complex(min(low, 0.0)), complex(max(high, length))), *spline.axes)

@@ -30,7 +30,6 @@ from parts.drawing.working import (
     AXIS,
     VISIBLE,
     Angle,
-    Note,
     PartDrawing,
     Size,
     Slant,
@@ -100,7 +99,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
     sizes += circle_sizes(holes, wheel.turn, low)
     middle = sum(_along(gear, gear.pitch_angle)) / 2
-    notes = [Note(middle, subject.rough(wishes.flank_roughness), is_rough=True)]
+    notes = [subject.worked(middle)]
     if holes.bore is not None:
         notes.append(bore_note((0.0, high), -down, subject.rough(wishes.bore_roughness)))
     # of the back cone and of the tip cone, at the outer tip

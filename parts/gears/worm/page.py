@@ -170,23 +170,12 @@ def sheet(table: dict[str, Any]) -> Sheet:
 def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
     """The same, refused where it is before the teeth of the wheel are made, of which remarks alone are told."""
     asked: WormKeys = checked(table, WormKeys, TOPIC)
-    keys = asked
-    errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
-    if keys.number_of_teeth is None:
+    if asked.number_of_teeth is None:
         for key in _OF_DRIVE:
             if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
-        driving = asked_torque(keys)
-        if driving is not None and keys.wheel_torque is not None:
-            other = "torque" if keys.power is None else "power"
-            raise ParameterError("wheel_torque", keys.wheel_torque, "other_is_given", REMOVED, other=other)
-        keys = changed(asked, diameter_quotient=quotient_of(asked), lead_angle_deg=None)
-        worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
-        hob_quotient(keys.hob_diameter_quotient, worm.diameter_quotient)
-        if keys.number_of_teeth is not None:
-            shift = shift_of(keys, worm.diameter_quotient, keys.number_of_teeth)
-            keys = changed(keys, profile_shift_coefficient=shift, working_centre_distance=None)
+        keys, worm, driving = _settled(asked)
     except ParameterError as error:
         raise refusal(TOPIC, in_degrees(error, asked), keys=asked) from error
     drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)
@@ -206,24 +195,7 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
         thread = thread_of(worm, keys.tip_rounding)
         _measures(page, thread, keys)
     if drive:
-        if any(x is not None for x in (keys.face_width, keys.worm_length, keys.outer_diameter)):
-            _lengths(page, drive, keys)
-        if errors.any:
-            _off_places(page, drive, keys, errors)
-        if keys.speed_rpm is not None:
-            _speeds(page, drive, keys.speed_rpm)
-        page.section("Torques and losses")
-        # how the flank leans where it carries
-        page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle))
-        formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
-        page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
-        locks = math.tan(drive.pitch_lead_angle) * math.cos(drive.pitch_normal_pressure_angle)
-        page.add("self_locking_friction", locks, "tan({gamma_w}) * cos({alpha_nw})")
-        worth = _losses(page, drive, keys)
-        torque = _torques(page, drive, keys, driving, worth)
-        if torque is not None and keys.form_factor is not None:
-            load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
-            _strength(page, drive, keys, load)
+        _at_work(page, drive, keys, driving)
 
     def finished() -> Sheet:
         if drive:
@@ -231,6 +203,50 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
         return page
 
     return finished
+
+
+def _settled(asked: WormKeys) -> tuple[WormKeys, Worm, float | None]:
+    """The keys with a quotient and a shift, their worm, and the torque on it, N*m, where it is given.
+
+    Raises
+    ------
+    ParameterError
+        Keys that exclude each other, or of which there is no worm.
+    """
+    driving = asked_torque(asked)
+    if driving is not None and asked.wheel_torque is not None:
+        other = "torque" if asked.power is None else "power"
+        raise ParameterError("wheel_torque", asked.wheel_torque, "other_is_given", REMOVED, other=other)
+    keys = changed(asked, diameter_quotient=quotient_of(asked), lead_angle_deg=None)
+    worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
+    hob_quotient(keys.hob_diameter_quotient, worm.diameter_quotient)
+    if keys.number_of_teeth is not None:
+        shift = shift_of(keys, worm.diameter_quotient, keys.number_of_teeth)
+        keys = changed(keys, profile_shift_coefficient=shift, working_centre_distance=None)
+    return keys, worm, driving
+
+
+def _at_work(page: Sheet, drive: WormDrive, keys: WormKeys, driving: float | None) -> None:
+    """Widths, places off the right ones, speeds, torques and strength of a drive, as far as they are asked for."""
+    if any(x is not None for x in (keys.face_width, keys.worm_length, keys.outer_diameter)):
+        _lengths(page, drive, keys)
+    errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
+    if errors.any:
+        _off_places(page, drive, keys, errors)
+    if keys.speed_rpm is not None:
+        _speeds(page, drive, keys.speed_rpm)
+    page.section("Torques and losses")
+    # how the flank leans where it carries
+    page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle))
+    formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
+    page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
+    locks = math.tan(drive.pitch_lead_angle) * math.cos(drive.pitch_normal_pressure_angle)
+    page.add("self_locking_friction", locks, "tan({gamma_w}) * cos({alpha_nw})")
+    worth = _losses(page, drive, keys)
+    torque = _torques(page, drive, keys, driving, worth)
+    if torque is not None and keys.form_factor is not None:
+        load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
+        _strength(page, drive, keys, load)
 
 
 def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:
