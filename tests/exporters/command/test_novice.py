@@ -340,6 +340,12 @@ def test_a_poor_part_is_told_whatever_file_it_is_in(
     assert told == ["note: a: the tooth is undercut: profile shift 0.0000 is below x_min = 0.2982"]
 
 
+@pytest.mark.parametrize(("typed", "meant"), [("5 %", "5"), ("0,5%", "0.5"), ("5", "5")])
+def test_percent_of_a_key_in_percent_are_as_many(typed: str, meant: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["calc", "ratio", "ratio=20", f'ratio_tolerance_percent="{typed}"']) == 2
+    assert capsys.readouterr().err.rstrip().endswith(f"; did you mean {meant}?")
+
+
 @pytest.mark.parametrize(
     ("typed", "told"),
     [

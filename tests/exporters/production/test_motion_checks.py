@@ -203,6 +203,34 @@ def test_two_cams_on_geared_shafts_are_held_over_their_common_period(
     assert solid["drive_turn_deg"] > 360
 
 
+@pytest.mark.parametrize("first", ["pin", "slot"])
+@pytest.mark.parametrize(("end", "length", "strikes"), [(66.0, 7.9, False), (60.0, 7.9, True), (60.0, 4.4, False)])
+def test_a_pin_of_a_rack_runs_against_the_end_of_its_slot(
+    first: str, end: float, length: float, strikes: bool, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Half a turn of 20 teeth of module 2 moves the rack by 20 pi mm, the slot's walls stand 0.2 mm from the pin.
+
+    The pin begins 4.5 mm below the plate: a short one passes under it. Either is the first of the pair.
+    """
+    slot = {"start": [-end, 0.0], "end": [end, 0.0], "width": 4.4}
+    parts: dict[str, dict[str, Any]] = {
+        "pin": {"kind": "pin", "diameter": 4.0, "length": length},
+        "slot": {"kind": "plate", "width": 160.0, "height": 12.0, "face_width": 3.0, "slots": [slot]},
+        "gear": {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 5.0},
+        "rack": {"kind": "rack", "module": 2.0, "number_of_teeth": 40, "face_width": 5.0},
+    }
+    places: dict[str, dict[str, Any]] = {"pin": {}, "slot": {"at": [0.0, -27.0, -3.5]}}
+    instances = {first: places.pop(first), **places, "gear": {"at": [0.0, 0.0, 0.0]}, "rack": {}}
+    mates = [{"kind": "rack_pair", "first": "gear", "second": "rack", "direction_deg": -90.0},
+             {"kind": "fixed", "first": "rack", "second": "pin", "offset": [0.0, -7.0, -8.0]}]  # fmt: skip
+    raw = {"parts": parts, "instances": instances, "mates": mates, "drives": [{"instance": "gear", "turns": 0.5}]}
+    code, found = check(tmp_path, raw, capsys)
+    assert (code, len(found.get("solids", []))) == (int(strikes), int(strikes))
+    if strikes:
+        # the pin stands 0.2 mm off the end of the slot when it has gone 60 mm
+        assert 180 * 60 / (20 * np.pi) < found["solids"][0]["drive_turn_deg"] <= 180
+
+
 def test_what_lies_between_poses_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Circles of 44 mm, 88 mm apart: the cams only just touch, and no number of poses shows that they do not."""
     code, found = check(tmp_path, geared_cams(88.0), capsys)

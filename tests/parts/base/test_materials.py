@@ -136,6 +136,7 @@ SET = '[[assemblies]]\nkind = "planetary_set"\nteeth = [24, 24, 72]\n'
         (f'{GEAR}material = "qwx"\n', "parts.g.material", ""),
         # 0.45 % of carbon (GOST 1050), and no cast steel
         (f'{GEAR}material = "45"\n', "parts.g.material", "steel 45"),
+        (f'{GEAR}material = "65"\n', "parts.g.material", "steel 65"),
         # today another language is told
         (f'{GEAR}material = {{ en = "plywood", uk = "фанэра" }}\n', "parts.g.material.uk", "фанера"),
         (f'[defaults]\nmaterial = "stel"\n{GEAR}', "parts.g: defaults.material", "steel"),

@@ -12,10 +12,12 @@ from typing import Any
 import msgspec
 import numpy as np
 import pytest
+import shapely
 from shapely import affinity
 
 from exporters.command.cli import main
 from exporters.production.check import scene_checks
+from geometry.curves.line_arc import Line
 from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
 from parts.ratchets.pawl import PawlSpec, pawl_of
@@ -74,6 +76,28 @@ def test_a_pawl_rides_freely_and_is_told_where_it_holds(wheel: Keys, turns: str)
             assert math.remainder(way - start, 2 * math.pi) == pytest.approx(-side * sense * swing)
 
 
+@pytest.mark.parametrize("turns", ["ccw", "cw"])
+def test_whole_turns_of_a_wheel_are_counted_from_its_start(turns: str) -> None:
+    """By polygons the pawl is lifted from the beginning on, and drops the first time an overrun after a pitch."""
+    sense = 1 if turns == "ccw" else -1
+    placing, _ = placed(WHEEL | {"turns": turns}, PAWL, drives=[{"instance": "wheel", "turns": 3.0 * sense}])
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "pawl": PAWL}}, "t", "t"), "t")
+    shape, train = made["pawl"].thing.shape, placing.train
+    assert train is not None
+    start = train.poses([0])["pawl"][1]
+    for share in (0.15, 0.5, 0.85, 1.3, 1.6):
+        turn = share * shape.wheel.pitch_angle
+        found, _ = ridden(shape, turn if share < 1 else turn - shape.wheel.pitch_angle)
+        for whole in (0, 1, 2):
+            now = train.poses([sense * (turn / (2 * math.pi) + whole)])["pawl"][1]
+            lift = -sense * math.remainder(now - start, 2 * math.pi)
+            assert lift == pytest.approx(found, abs=1e-3)
+    # a turn later all is as it was once it has dropped, wherever rounding leaves the angle
+    for turn in np.linspace(0.13, 0.99, 200).tolist():
+        first, later = (train.poses([sense * (turn + whole)])["pawl"][1] for whole in (0, 1))
+        assert math.remainder(first - later, 2 * math.pi) == pytest.approx(0.0, abs=1e-6)
+
+
 def test_pawls_stand_at_their_teeth_or_between_them() -> None:
     """Two half a pitch apart: the wheel turns back by half a pitch until the other one holds it."""
     mates = [MATE | {"tooth": 1.0}, MATE | {"second": "other", "tooth": 9.5}]
@@ -97,7 +121,7 @@ def test_a_wheel_that_a_pawl_holds_does_not_turn_back() -> None:
         assert checks["mates"][0]["turn_back_deg"] == pytest.approx(0.0, abs=1e-6)
 
 
-@pytest.mark.parametrize(("share", "told"), [(0.45, False), (0.55, True), (0.9, True)])
+@pytest.mark.parametrize(("share", "told"), [(0.45, False), (0.51, True), (0.9, True)])
 def test_a_drive_may_turn_a_wheel_back_as_far_as_the_pawl_lets_it(share: float, told: bool) -> None:
     """Midway between two teeth it is free for half a pitch."""
     _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": 9.5}], drives=[{"instance": "wheel", "turns": -share / 16}])
@@ -153,12 +177,15 @@ def test_a_pawl_that_leaves_the_face_below_the_edge_drops_later() -> None:
 
 
 def test_conditions_of_a_pair_are_told_with_their_numbers() -> None:
-    _, checks = placed(WHEEL | {"front_angle_deg": 5.0}, PAWL)
-    (found,) = checks["mates"][0]["findings"]
-    assert (found["code"], found["value"]) == ("pawl_slips_out", pytest.approx(5.0))
-    assert found["limit"] == pytest.approx(math.degrees(math.atan(0.15)))
-    _, checks = placed(WHEEL | {"front_angle_deg": 5.0}, PAWL, [MATE | {"friction": 0.05}])
-    assert checks["mates"][0]["findings"] == []
+    # arctan 0.15 is 8.53 degrees
+    for front in (5.0, 8.5):
+        _, checks = placed(WHEEL | {"front_angle_deg": front}, PAWL)
+        (found,) = checks["mates"][0]["findings"]
+        assert (found["code"], found["value"]) == ("pawl_slips_out", pytest.approx(front))
+        assert found["limit"] == pytest.approx(math.degrees(math.atan(0.15)))
+    for front, friction in ((5.0, 0.05), (8.6, 0.15)):
+        _, checks = placed(WHEEL | {"front_angle_deg": front}, PAWL, [MATE | {"friction": friction}])
+        assert checks["mates"][0]["findings"] == []
     made, _ = make_parts(
         scene_from_dict({"parts": {"wheel": WHEEL, "pawl": PAWL | {"nose_radius": 1.6}}}, "t", "t"), "t"
     )
@@ -168,15 +195,18 @@ def test_conditions_of_a_pair_are_told_with_their_numbers() -> None:
 
 
 def test_a_pawl_that_stands_elsewhere_is_told() -> None:
-    """By hand it is turned off its place: nothing is contact then."""
-    placing, _ = placed(WHEEL, PAWL)
+    """By hand it is turned off its place: nothing is contact then. By how much is told along the arc of its edge."""
+    placing, _ = placed(WHEEL, PAWL | {"length": 25.0})
     (own,) = (one for one in placing.instances if one.id == "pawl")
     at = [own.centre.real, own.centre.imag, 0.0]
     for off, met in ((0.0, True), (1.0, False)):
         rotation = math.degrees(own.rotation) + off
         instances: Keys = {"wheel": {}, "pawl": {"at": at, "rotation_deg": rotation}}
-        _, checks = placed(WHEEL, PAWL, instances=instances)
-        assert all(one["met"] for one in checks["mates"][0]["conditions"]) == met
+        _, checks = placed(WHEEL, PAWL | {"length": 25.0}, instances=instances)
+        conditions = checks["mates"][0]["conditions"]
+        assert all(one["met"] for one in conditions) == met
+        (along,) = [one["value"] for one in conditions if one["code"] == "rack_phase"]
+        assert along == pytest.approx(25.0 * math.radians(off), abs=1e-9)
 
 
 REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
@@ -194,7 +224,7 @@ REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
     "thin ring": (RING | {"outer_diameter": 127.0}, None, "outer_diameter", "leaves_no_rim"),
     "rim": (WHEEL | {"outer_diameter": 200.0}, None, "outer_diameter", "only_of_internal"),
     "blunt nose": (WHEEL, PAWL | {"nose_radius": 8.0}, "nose_radius", "nose_does_not_fit"),
-    "nose sharper than the root": (WHEEL, PAWL | {"nose_radius": 0.2}, "nose_radius", "nose_does_not_fit"),
+    "nose sharper than the root": (WHEEL, PAWL | {"nose_radius": 0.49}, "nose_radius", "nose_does_not_fit"),
     "thick boss": (WHEEL, PAWL | {"boss_diameter": 30.0, "length": 24.0}, "boss_diameter", "boss_reaches_teeth"),
     "tail of a ring's pawl": (RING, PAWL | {"tail_length": 60.0}, "tail_length", "tail_reaches_teeth"),
     "tail beside the wheel": (WHEEL, PAWL | {"tail_length": 30.0, "tail_angle_deg": -60.0}, "tail_length",
@@ -346,6 +376,25 @@ def test_the_calculation_is_that_of_the_scene_s_own_pawl(
         assert math.radians(row["ψ"]) == pytest.approx(found, abs=1e-3)
 
 
+@pytest.mark.parametrize(("wheel", "pawl"), [
+    (WHEEL, PAWL),
+    (WHEEL | {"module": 1.0, "number_of_teeth": 20, "tooth_depth": 1.17}, PAWL | {"nose_radius": 0.437}),
+    (WHEEL | {"module": 2.5, "number_of_teeth": 12, "tooth_depth": 2.9}, PAWL | {"clearance_angle_deg": 31.7}),
+])  # fmt: skip
+def test_bar_and_top_keep_the_clearance_off_the_tips(wheel: Keys, pawl: Keys) -> None:
+    """Each straight side that begins and ends beyond the gap of 0.1 m is there all along, however flat it begins."""
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": wheel, "pawl": pawl}}, "t", "t"), "t")
+    least = wheel["module"] * (wheel["number_of_teeth"] / 2 + 0.1)
+    sides = [edge for edge in made["pawl"].thing.shape.edges() if isinstance(edge, Line)]
+    beyond = [one for one in sides if min(abs(one.start), abs(one.end)) > least - 1e-9]
+    assert len(beyond) >= 2
+    for one in beyond:
+        assert (
+            shapely.LineString([(z.real, z.imag) for z in (one.start, one.end)]).distance(shapely.Point(0, 0))
+            > least - 1e-9
+        )
+
+
 def test_a_pawl_is_for_one_wheel() -> None:
     parts = {"wheel": WHEEL, "other": WHEEL | {"number_of_teeth": 18}, "pawl": PAWL | {"of": "other"}}
     with pytest.raises(SceneError) as refused:
@@ -353,9 +402,12 @@ def test_a_pawl_is_for_one_wheel() -> None:
     assert (refused.value.key, refused.value.code) == ("mates[1]: parts.pawl.of", "made_for_another_wheel")
 
 
-@pytest.mark.parametrize("angle", [-10.0, 0.0, 45.0])
+@pytest.mark.parametrize("angle", [-20.0, -10.0, 0.0, 12.0, 45.0])
 def test_a_tail_adds_to_the_pawl(angle: float) -> None:
-    """Its area lies between that of the pawl without and that with all of the tail beyond the boss."""
+    """Its area lies between that of the pawl without and that with all of the tail beyond the boss.
+
+    At -20 and at 12 degrees a side of it meets one of the bar's where nothing of the boss is between them.
+    """
     found = []
     for tail in (0.0, 20.0):
         own = PAWL | {"tail_length": tail, "tail_width": 5.0} | ({"tail_angle_deg": angle} if tail else {})

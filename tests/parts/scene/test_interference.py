@@ -84,6 +84,26 @@ def test_a_turned_body_is_looked_at_a_little_within_its_surface() -> None:
     assert math.pi * (10 - 2 * inset) ** 2 * (30 - 4 * inset) < found < math.pi * (10 - inset) ** 2 * (30 - 2 * inset)
 
 
+def test_pairs_as_far_apart_in_another_direction_or_height_do_not_stand_alike() -> None:
+    """A bar of 40 by 10 by 3 and a tile of 8: 8 along the bar they share 8 x 8 x 3 mm^3, two thirds of it 1 mm above
+    that, and 8 across an eighth, as the bar ends 1 mm within the tile.
+    """
+    parts = {
+        "bar": {"kind": "plate", "width": 40.0, "height": 10.0, "face_width": 3.0},
+        "tile": {"kind": "plate", "width": 8.0, "height": 8.0, "face_width": 3.0},
+    }
+    ways = {"along": [8.0, 0.0, 0.0], "across": [0.0, 8.0, 0.0], "above": [8.0, 0.0, 1.0]}
+    shared = {"along": 192.0, "across": 24.0, "above": 128.0}
+    for order in (("along", "across", "above"), ("above", "across", "along")):
+        placed: dict[str, Any] = {}
+        for k, name in enumerate(order):
+            x, y, z = ways[name]
+            placed |= {f"bar_{name}": {"part": "bar", "at": [100.0 * k, 0.0, 0.0]},
+                       f"tile_{name}": {"part": "tile", "at": [100.0 * k + x, y, z]}}  # fmt: skip
+        told = {(f"bar_{name}", f"tile_{name}"): pytest.approx(shared[name], rel=0.02) for name in order}
+        assert overlaps(parts, placed) == told
+
+
 def test_pairs_that_stand_alike_are_held_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """A row in which each is turned on by its own angle; one that stands otherwise is another pair."""
     held = []

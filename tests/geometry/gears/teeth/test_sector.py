@@ -175,6 +175,7 @@ def offered(refusal: ParameterError | OffsetError) -> Any:
     [
         (Sector(24, 0), "sector.teeth", "sector_of_all_teeth"),
         (Sector(12, 0, 2), "sector.teeth", "sector_of_all_teeth"),
+        (Sector(2, 0, 12), "sector.teeth", "sector_of_all_teeth"),
         (Sector(23, 0, 1, 30.0), "sector.teeth", "sector_of_all_teeth"),
         (Sector(3, 0, 5), "sector.runs", "runs_do_not_divide"),
         (Sector(5, 0, 1, 44.0), "sector.blank_diameter", "blank_above_roots"),

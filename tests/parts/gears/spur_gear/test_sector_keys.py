@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shapely.geometry import Point
 
 from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
@@ -58,3 +60,11 @@ def test_a_table_builds_or_is_refused(keys: dict[str, Any]) -> None:
     assert abs(volume / (5.0 * shape.area) - 1) < 1e-3
     whole = outcome({k: v for k, v in keys.items() if k != "sector"})
     assert volume < body_moments(whole.body(0.0)).volume
+
+
+@pytest.mark.parametrize(("bore", "hub"), [(0.0, 75.0 / 4), (8.0, 75.0 / 4), (12.0, 24.0)])
+def test_the_hub_of_a_cut_sector_is_a_quarter_of_the_roots_or_twice_the_bore(bore: float, hub: float) -> None:
+    """By the outline: module 2 and 40 teeth of 2.5 modules below the reference circle of 80 have roots at 75 mm."""
+    keys = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 40, "face_width": 5.0, "bore_diameter": bore}
+    outline = polygon(outcome(keys | {"sector": {"teeth": 9, "rest": "cut"}}).section(0.0).region.outer)
+    assert 2 * outline.exterior.distance(Point(0, 0)) == pytest.approx(hub, rel=1e-3)
