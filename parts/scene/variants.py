@@ -61,9 +61,8 @@ def axes_of(asked: Sequence[str], scene: SceneFile) -> list[Axis]:
         if any(axis.key == key for axis in found):
             raise SceneError(PLACE, key, text, "given_twice")
         axis = Axis(key, _counted(key, tuple(_values(key, text)), scene))
-        names = [_name(key, value).lower() for value in axis.values]
         for i, value in enumerate(axis.values):
-            if value in axis.values[:i] or names[i] in names[:i]:
+            if value in axis.values[:i]:
                 raise SceneError(PLACE, key, value, "listed_twice")
         refusal = _refusal(key, axis.values[0], scene)
         # what a value does is the variant's
@@ -78,9 +77,9 @@ def axes_of(asked: Sequence[str], scene: SceneFile) -> list[Axis]:
 def variants(scene: SceneFile, axes: Sequence[Axis]) -> Iterator[Variant]:
     """Every choice, the last axis the fastest."""
     kept = resolved(scene)
-    for choice in product(*(axis.values for axis in axes)):
-        values = {axis.key: value for axis, value in zip(axes, choice, strict=True)}
-        yield Variant(",".join(_name(key, value) for key, value in values.items()), values, _with(kept, values))
+    for choice in product(*(zip(axis.values, _names(axis), strict=True) for axis in axes)):
+        values = {axis.key: value for axis, (value, _) in zip(axes, choice, strict=True)}
+        yield Variant(",".join(name for _, name in choice), values, _with(kept, values))
 
 
 def _values(key: str, text: str) -> Iterator[Any]:
@@ -150,8 +149,18 @@ def _with(scene: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
     return made
 
 
-def _name(key: str, value: object) -> str:
-    """``key=value`` as a part of a folder's name; with a hash where letters had to go."""
-    told = f"{key}={value}"
-    clean = re.sub(r"[^A-Za-z0-9.+=_-]", "_", told)[:_MOST_LETTERS]
-    return clean if clean == told else f"{clean}-{hashlib.sha256(told.encode()).hexdigest()[:8]}"
+def _names(axis: Axis) -> list[str]:
+    """Of each value ``key=value`` as a part of a folder's name; with a hash where letters had to go.
+
+    So has one that differs from a value before it in case alone: folders of some systems do not.
+    """
+    names: list[str] = []
+    taken = set[str]()
+    for value in axis.values:
+        told = f"{axis.key}={value}"
+        name = re.sub(r"[^A-Za-z0-9.+=_-]", "_", told)[:_MOST_LETTERS]
+        if name != told or name.lower() in taken:
+            name = f"{name}-{hashlib.sha256(told.encode()).hexdigest()[:8]}"
+        taken.add(name.lower())
+        names.append(name)
+    return names
