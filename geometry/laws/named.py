@@ -156,6 +156,25 @@ def gutman_13() -> Law:
     return Law("Gutman 1-3", (LawPiece(0.0, 1.0, (0.0, 1.0), waves),))
 
 
+def double_harmonic() -> Law:
+    """s = (1 - cos(pi u))/2 - (1 - cos(2 pi u))/8: from a dwell, with acceleration -pi^2 into a return at once.
+
+    H. A. Rothbart, Cams, 2; R. L. Norton, Cam Design and Manufacturing Handbook, 3.
+    """
+    waves = (Wave(-0.5, math.pi, math.pi / 2), Wave(1 / 8, 2 * math.pi, math.pi / 2))
+    return Law("double harmonic", (LawPiece(0.0, 1.0, (3 / 8,), waves),))
+
+
+def half_cycloidal() -> Law:
+    """s = u - sin(pi u)/pi: from rest to velocity 2 without acceleration there; Rothbart's C-1, reversed C-2."""
+    return Law("half cycloidal", (LawPiece(0.0, 1.0, (0.0, 1.0), (Wave(-1 / math.pi, math.pi, 0.0),)),))
+
+
+def half_harmonic() -> Law:
+    """s = 1 - cos(pi u/2): from rest to velocity pi/2 without acceleration there; Rothbart's H-1, reversed H-2."""
+    return Law("half harmonic", (LawPiece(0.0, 1.0, (1.0,), (Wave(-1.0, math.pi / 2, math.pi / 2),)),))
+
+
 def polynomial_law(conditions: Sequence[tuple[float, int, float]]) -> Law:
     """The polynomial that meets conditions (u, order of derivative, value), s(0) = 0 and s(1) = 1 among them.
 
@@ -236,4 +255,7 @@ NAMED_LAWS: dict[str, Callable[[], Law]] = {
     "polynomial_345": polynomial_345,
     "polynomial_4567": polynomial_4567,
     "gutman_13": gutman_13,
+    "double_harmonic": double_harmonic,
+    "half_cycloidal": half_cycloidal,
+    "half_harmonic": half_harmonic,
 }

@@ -32,6 +32,9 @@ LawName = Literal[
     "polynomial_345",
     "polynomial_4567",
     "gutman_13",
+    "double_harmonic",
+    "half_cycloidal",
+    "half_harmonic",
 ]
 # a phase of a motion may leave its law to its neighbours
 PhaseLaw = Literal[LawName, "join"]

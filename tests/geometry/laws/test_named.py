@@ -52,6 +52,13 @@ PEAKS: dict[str, tuple[float, float, float]] = {
     "polynomial_345": (15 / 8, 10 / math.sqrt(3), 60),
     "polynomial_4567": (35 / 16, 84 * math.sqrt(5) / 25, 105 / 2),
     "gutman_13": (2, 2 * PI * math.sqrt(2 / 3), 6 * PI**2),
+    # of the last the greatest jerk stands where 8 c^2 - c = 4, c the cosine of pi u
+    "double_harmonic": (
+        3 * math.sqrt(3) * PI / 8, PI**2,
+        PI**3 / 2 * math.sqrt(1 - ((math.sqrt(129) - 1) / 16) ** 2) * (1 + (math.sqrt(129) - 1) / 4),
+    ),
+    "half_cycloidal": (2, PI, PI**2),
+    "half_harmonic": (PI / 2, PI**2 / 4, PI**3 / 8),
     **{f"modified_sine_cv{round(100 * share)}": of_modified_sine((1 - share) / 8) for share in (0.2, 1 / 3, 0.5)},
 }
 # continuity of each law with a dwell on both sides: the highest derivative that does not jump
@@ -60,6 +67,7 @@ CONTINUITY = {
     "trapezoid": 2, "triangle": 2, "modified_trapezoid": 2, "modified_sine": 2, "polynomial_345": 2,
     "modified_sine_cv20": 2, "modified_sine_cv33": 2, "modified_sine_cv50": 2,
     "polynomial_4567": 3, "gutman_13": 2,
+    "double_harmonic": 1, "half_cycloidal": 0, "half_harmonic": 0,
 }  # fmt: skip
 
 
@@ -112,7 +120,7 @@ JERKS = {
 }
 
 
-@pytest.mark.parametrize("name", [*JERKS, "cosine", "constant_acceleration", "constant_velocity"])
+@pytest.mark.parametrize("name", [*JERKS, "cosine", "constant_acceleration", "constant_velocity", "double_harmonic"])
 def test_jerks_as_printed(name: str) -> None:
     assert NAMED_LAWS[name]().jerk() == pytest.approx(JERKS.get(name, np.inf), abs=0.05)
 
@@ -191,6 +199,9 @@ DEFINITIONS: dict[str, Callable[[Any], Any]] = {
     "sine": lambda u: u - MP.sin(2 * MP.pi * u) / (2 * MP.pi),
     "polynomial_345": lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
     "polynomial_4567": lambda u: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
+    "double_harmonic": lambda u: (1 - MP.cos(MP.pi * u) - (1 - MP.cos(2 * MP.pi * u)) / 4) / 2,
+    "half_cycloidal": lambda u: u - MP.sin(MP.pi * u) / MP.pi,
+    "half_harmonic": lambda u: 1 - MP.cos(MP.pi * u / 2),
     "gutman_13": lambda u: u - 15 * MP.sin(2 * MP.pi * u) / (32 * MP.pi) - MP.sin(6 * MP.pi * u) / (96 * MP.pi),
 }
 
