@@ -54,7 +54,8 @@ PEAKS: dict[str, tuple[float, float, float]] = {
     "gutman_13": (2, 2 * PI * math.sqrt(2 / 3), 6 * PI**2),
     # of the last the greatest jerk stands where 8 c^2 - c = 4, c the cosine of pi u
     "double_harmonic": (
-        3 * math.sqrt(3) * PI / 8, PI**2,
+        3 * math.sqrt(3) * PI / 8,
+        PI**2,
         PI**3 / 2 * math.sqrt(1 - ((math.sqrt(129) - 1) / 16) ** 2) * (1 + (math.sqrt(129) - 1) / 4),
     ),
     "half_cycloidal": (2, PI, PI**2),
