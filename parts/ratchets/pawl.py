@@ -153,7 +153,7 @@ def pawl_of(keys: PawlSpec, wheel: RatchetWheel, module: float) -> PawlShape:
     """The pawl of the keys, not yet checked."""
     from geometry.gears.ratchets.pawl import PawlShape
 
-    line = (_INWARDS if wheel.internal else 0.0) if keys.line_angle_deg is None else keys.line_angle_deg
+    line = _usual_line(wheel) if keys.line_angle_deg is None else keys.line_angle_deg
     gap = _CLEARANCE * module if keys.clearance is None else keys.clearance
     boss = keys.boss_diameter or _BOSS * (pivot_hole(keys, module) or _HOLE * module)
     tip, sine = wheel.tip_radius, math.sin(math.radians(line))
@@ -180,6 +180,11 @@ def pawl_of(keys: PawlSpec, wheel: RatchetWheel, module: float) -> PawlShape:
     )
 
 
+def _usual_line(wheel: RatchetWheel) -> float:
+    """The line angle where no key tells it, degrees."""
+    return _INWARDS if wheel.internal else 0.0
+
+
 def _cured(keys: PawlSpec, wheel: RatchetWheel, module: float, refusal: GeometryError) -> ParameterError:
     """The refusal by the first key that alone cures it, the one to blame before the others."""
     from geometry.gears.ratchets.pawl import checked_pawl
@@ -189,7 +194,7 @@ def _cured(keys: PawlSpec, wheel: RatchetWheel, module: float, refusal: Geometry
              "line_angle_deg", "tail_length", "tail_angle_deg", "tail_width")  # fmt: skip
     for key in sorted(sizes, key=lambda one: one != blamed):
         given = getattr(keys, key)
-        if not given:
+        if given is None or (given == 0 and key != "line_angle_deg"):
             continue
 
         def fits(value: float, key: str = key) -> bool:
@@ -199,7 +204,7 @@ def _cured(keys: PawlSpec, wheel: RatchetWheel, module: float, refusal: Geometry
         if key == "nose_radius":
             ends = [wheel.fillet_radius * _NOSE or _SHARP * module, *ends]
         if key.startswith("tail") or key.endswith("_deg"):
-            ends.append(0.0)
+            ends.append(_usual_line(wheel) if key == "line_angle_deg" else 0.0)
         if any(kept(fits, end) for end in ends):
             return ParameterError(key, given, code, partial(nearest, fits, given, ends, digits=6))
     without = next((key for key in sizes if getattr(keys, key) is not None), "")
