@@ -22,6 +22,7 @@ from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
+from parts.base.part_keys import USUAL_COLOUR
 from parts.scene.formats import FileKind
 from parts.scene.scene_file import ExportSpec
 
@@ -262,7 +263,8 @@ def _mesh_part(content: Content, made: Chords) -> MeshPart:
     from parts.solids.mesh import body_mesh
 
     part = content.part
-    return MeshPart(part.id, body_mesh(content.body, made), part.colour, part.title or "", part.material)
+    mesh = body_mesh(content.body, made)
+    return MeshPart(part.id, mesh, part.colour, part.title or "", part.material, part.language)
 
 
 def _write_3mf(content: Content, made: Chords, file: Path) -> dict[str, int]:
@@ -288,7 +290,8 @@ def _step_part(content: Content, made: SolidCurves) -> StepPart:
     part, body = content.part, content.body
     volume, faces = part.made_by.moments(body).volume, solid_faces(body, made)
     weighed = part.material, part.density, volume, surface_area(faces)
-    return StepPart(part.id, faces, part.colour, *weighed, part.product_name, part.description, body.precision)
+    colour = part.colour or USUAL_COLOUR
+    return StepPart(part.id, faces, colour, *weighed, part.product_name, part.description, body.precision)
 
 
 def _step_form(content: Content) -> StepForm:

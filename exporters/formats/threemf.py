@@ -15,6 +15,7 @@ import numpy as np
 
 from geometry.base.placement import Placement3
 from geometry.base.record import Record
+from parts.base.part_keys import USUAL_COLOUR
 from parts.solids.mesh import Mesh
 
 if TYPE_CHECKING:
@@ -23,22 +24,23 @@ if TYPE_CHECKING:
 # decimals written for each coordinate: more than a float32 holds at any size that is printed
 _DECIMALS = 9
 _MODEL = "3D/3dmodel.model"
-DEFAULT_COLOUR = "#b8c4d0"
 
 
 class MeshPart(Record):
-    """A mesh by its id, with its colour, like "#c08040", what people call it, and what it is made of."""
+    """A mesh by its id, with its colour, like "#c08040", what people call it, in a language, and what it is made of."""
 
     name: str
     mesh: Mesh
     colour: str | None
     title: str = ""
     material: str | None = None
+    language: str = "en"
 
 
 def write_3mf(file: Path, part: MeshPart) -> dict[str, int]:
     """Write one part as one build item."""
-    model, name = _model(), part.name
+    name = part.name
+    model = _model(part.title or name, part.language)
     item = _add_object(model, model.AddBaseMaterialGroup(), part, _uuid(name, "object"))
     _add_item(model, item, _home(), _uuid(name, "item"))
     file.write_bytes(_package(model, _uuid(name, "build")))
@@ -52,8 +54,7 @@ def write_3mf_assembly(
 
     The name of an occurrence is its item's part number.
     """
-    model = _model()
-    model.GetMetaDataGroup().AddMetaData("", "Title", name, "xs:string", True)
+    model = _model(name, parts[0].language)
     materials = model.AddBaseMaterialGroup()
     objects = {p.name: _add_object(model, materials, p, _uuid(f"{name}/{p.name}", "object")) for p in parts}
     home = _home()
@@ -65,7 +66,7 @@ def write_3mf_assembly(
     return {"triangles": sum(len(m.triangles) for m in meshes), "vertices": sum(len(m.vertices) for m in meshes)}
 
 
-def _model() -> Model:
+def _model(title: str, language: str) -> Model:
     import lib3mf
     from lib3mf import Lib3MF
 
@@ -76,6 +77,8 @@ def _model() -> Model:
         raise ImportError(str(error), name="lib3mf") from error
     model = library.CreateModel()
     model.SetUnit(Lib3MF.ModelUnit.MilliMeter)
+    model.SetLanguage(language)
+    model.GetMetaDataGroup().AddMetaData("", "Title", title, "xs:string", True)
     return model
 
 
@@ -92,7 +95,7 @@ def _add_object(model: Model, materials: BaseMaterialGroup, part: MeshPart, iden
         _structs(Lib3MF.Position, part.mesh.vertices.astype("<f4")),
         _structs(Lib3MF.Triangle, part.mesh.triangles.astype("<u4")),
     )
-    shade = _colour(part.colour or DEFAULT_COLOUR)
+    shade = _colour(part.colour or USUAL_COLOUR)
     item.SetObjectLevelProperty(materials.GetResourceID(), materials.AddMaterial(part.material or part.name, shade))
     item.SetUUID(identity)
     return item

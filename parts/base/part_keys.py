@@ -9,6 +9,8 @@ from msgspec import Meta, Struct
 Colour = Annotated[
     str, Meta(pattern=r"^#[0-9a-fA-F]{6}$", description="colour in pictures, like #c08040", examples=["#c08040"])
 ]
+# in files of solids, of a part that has none of its own
+USUAL_COLOUR = "#b8c4d0"
 Material = Annotated[
     str,
     Meta(

@@ -132,11 +132,13 @@ def laid(
     free = {**_framed_sides(view), **(free or {})}
     if (usual := _filled(view, scale, language, free, own=own)) is None:
         return None
-    # where leaders run over dimension lines, notes choose before sizes
-    if over := usual.ink.run_over():
-        other = _filled(view, scale, language, free, own=own, first=view.notes)
-        if other is not None and other.ink.run_over() < over:
-            usual = other
+    # where leaders run over dimension lines, notes choose before sizes; where over each other, the last one first too
+    for first in (view.notes, view.notes[::-1]):
+        over = usual.ink.run_over()
+        if over[0] or (over[1] and first == view.notes):
+            other = _filled(view, scale, language, free, own=own, first=first)
+            if other is not None and other.ink.run_over() < over:
+                usual = other
     return Laid(view, usual.canvas, scale, usual.extent())
 
 

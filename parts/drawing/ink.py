@@ -114,10 +114,12 @@ class Ink(Draft):
         rows = [(line.start, line.end, _ROLES.index(role)) for role, lines in new.items() for line in lines]
         self.straight = np.concatenate([self.straight, np.array(rows, dtype=complex).reshape(-1, 3).T], axis=1)
 
-    def run_over(self) -> int:
-        """How many dimension lines are crossed by leaders."""
+    def run_over(self) -> tuple[int, int]:
+        """How many leaders cross leaders, and how many dimension lines are crossed by some."""
         sizes, leaders = (self.straight[:, self.straight[2] == _ROLES.index(role)] for role in ("dimension", "leader"))
-        return int(np.count_nonzero(_costs(sizes, leaders)))
+        # those of one leader only end in each other
+        over = np.triu(_crossings(leaders, leaders, np.full_like(_MARGINS, _TOUCH)))
+        return int(np.count_nonzero(over)), int(np.count_nonzero(_costs(sizes, leaders)))
 
     def costs(self, places: Sequence[Mapping[Role, Sequence[Line]]]) -> list[float]:
         """What new lines of a size cost by what they cross and lie on, for each of its places."""
@@ -158,8 +160,8 @@ def _shares(boxes: Real, lines: Complex) -> Real:
     return np.asarray(np.minimum(last, 1.0) - np.maximum(first, 0.0))
 
 
-def _costs(lines: Complex, others: Complex) -> Real:
-    """Of lines, (n,), that cross others within both, and that lie on others; rows: both ends, what it is."""
+def _crossings(lines: Complex, others: Complex, margins: Real) -> np.ndarray:
+    """Which of lines, (n,), cross which of others within both; rows: both ends, what it is."""
     (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
     long, other = np.abs(u)[:, None], np.abs(v)[None, :]
     u, a, b, v = u[:, None], a[:, None], b[None, :], v[None, :]
@@ -168,9 +170,18 @@ def _costs(lines: Complex, others: Complex) -> Real:
     safe, between = np.where(parallel, 1.0, turn), b - a
     # places of the crossing along both, mm
     s, t = (np.conj(between) * v).imag / safe * long, (np.conj(between) * u).imag / safe * other
+    margin = margins[lines[2].real.astype(int)][:, others[2].real.astype(int)]
+    return np.asarray(~parallel & (s > margin) & (s < long - margin) & (t > margin) & (t < other - margin))
+
+
+def _costs(lines: Complex, others: Complex) -> Real:
+    """Of lines, (n,), that cross others, and that lie on others; rows: both ends, what it is."""
+    (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
+    long, other = np.abs(u)[:, None], np.abs(v)[None, :]
+    u, a, b, v = u[:, None], a[:, None], b[None, :], v[None, :]
     here, there = lines[2].real.astype(int), others[2].real.astype(int)
-    margin = _MARGINS[here][:, there]
-    crossed = ~parallel & (s > margin) & (s < long - margin) & (t > margin) & (t < other - margin)
+    crossed, between = _crossings(lines, others, _MARGINS), b - a
+    parallel = np.abs((np.conj(u) * v).imag) <= _PARALLEL * long * other
     way = u / long
     off = np.abs((np.conj(way) * between).imag)
     ends = (np.conj(way) * between).real, (np.conj(way) * (between + v)).real

@@ -24,6 +24,8 @@ Triangles = NDArray[np.int64]
 Filled = tuple[Triangles, Complex]
 # of the grid on which vertices stand, in a reach of 1
 _GRID_DIGITS = 8
+# height of a triangle, in a reach of 1, that the roundings of a float32 may turn over
+_FLAT = 2.0**-22
 # decimals of angles (rad) and heights (mm) that are compared
 _ANGLE_DIGITS, _HEIGHT_DIGITS = 11, 10
 
@@ -114,8 +116,11 @@ def library_triangles(points: Complex, rings: list[Triangles]) -> Triangles:
     doubled = _cross(points, triangles)
     if not (np.all(doubled >= 0) and np.isclose(0.5 * doubled.sum(), sum(_area(points[r]) for r in rings), rtol=1e-9)):
         raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
-    # corners in one line, those of holes in rows, leave triangles without area
-    return triangles if np.all(doubled > 0) else _delaunay(points, numbers, polygons)
+    # corners in one line, those of holes in rows, leave triangles without area, or what a file turns over
+    corners = points[triangles]
+    longest = np.abs(corners - np.roll(corners, 1, axis=1)).max(axis=1)
+    flat = _FLAT * float(np.max(np.abs(points))) * longest
+    return triangles if np.all(doubled > flat) else _delaunay(points, numbers, polygons)
 
 
 def _delaunay(points: Complex, numbers: Triangles, polygons: list[Real]) -> Triangles:

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from exporters.command.cli import main
+from exporters.formats.read_3mf import read_3mf
+from exporters.formats.read_step import read_step
 from exporters.production.check_lines import names_of
 from parts.base.part import Part
 from parts.base.registry import KINDS
@@ -125,13 +127,26 @@ def test_a_3mf_has_the_title_for_people_and_the_id_as_part_number(
     file = folder / "wheel.3mf"
     with zipfile.ZipFile(file) as package:
         good = {name: package.read(name) for name in package.namelist()}
-    assert 'name="Колесо" partnumber="wheel"' in good["3D/3dmodel.model"].decode("utf-8")
+    model = good["3D/3dmodel.model"].decode("utf-8")
+    assert 'name="Колесо" partnumber="wheel"' in model
+    assert re.findall(r'<metadata name="Title"[^>]*>([^<]*)<', model) == ["Колесо"]
     for spoiled in ("Rad", "wheel"):
         with zipfile.ZipFile(file, "w") as package:
             for name, content in good.items():
                 package.writestr(name, content.replace("Колесо".encode(), spoiled.encode()))
         assert main(["verify", str(file)]) == 1
         assert "title" in capsys.readouterr().out
+
+
+def test_a_3mf_tells_its_language_and_solids_have_the_usual_colour(folder: Path, tmp_path: Path) -> None:
+    """Where the part has none of its own, in both formats that have colours."""
+    file = tmp_path / "s.toml"
+    file.write_text('[scene]\nlanguage = "uk"\n' + SCENE, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--no-verify", "--format", "3mf"]) == 0
+    for made, language in ((folder, "en"), (tmp_path / "s", "uk")):
+        model = zipfile.ZipFile(made / "wheel.3mf").read("3D/3dmodel.model").decode("utf-8")
+        assert re.findall(r'xml:lang="([^"]*)"', model) == [language]
+    assert read_3mf(folder / "wheel.3mf").colour == read_step(folder / "wheel.step").colour == "#b8c4d0"
 
 
 def test_pictures_and_sheets_show_them(folder: Path) -> None:

@@ -345,19 +345,24 @@ def test_dimension_lines_and_leaders_do_not_lie_on_lines(line: Line, lies: bool)
             assert leaning.costs([{role: steep}]) == [own]  # type: ignore[dict-item]
 
 
-def test_leaders_that_run_over_dimension_lines_are_counted() -> None:
+def test_leaders_that_run_over_dimension_lines_or_leaders_are_counted() -> None:
     ink = Ink()
     for y in (0, 5):
         ink.add(Line(complex(0, y), complex(10, y)), "dimension")
     ink.add(Line(5 - 5j, 5 + 2j), "leader")
-    assert ink.run_over() == 1
+    assert ink.run_over() == (0, 1)
     ink.add(Line(3 - 5j, 3 + 8j), "leader")
-    assert ink.run_over() == 2
+    assert ink.run_over() == (0, 2)
     ink.add(Line(1 - 5j, 1 + 8j), "extension")
-    assert ink.run_over() == 2
+    assert ink.run_over() == (0, 2)
     # a spline is no straight line
     ink.add(BSpline(1, np.array([0.0, 0, 1, 1]), np.array([2 - 5j, 2 + 8j])), "leader")
-    assert (ink.run_over(), ink.straight.shape) == (2, (3, 5))
+    assert (ink.run_over(), ink.straight.shape) == ((0, 2), (3, 5))
+    # a shelf that ends on its leader does not cross it, another leader does
+    ink.add(Line(5 + 2j, 9 + 2j), "leader")
+    assert ink.run_over()[0] == 0
+    ink.add(Line(4 + 1j, 6 + 1j), "leader")
+    assert ink.run_over()[0] == 1
 
 
 ROWS = (

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from exporters.command.cli import main
 from geometry.base.errors import ThinWallError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
@@ -285,3 +288,20 @@ def test_round_is_what_has_all_corners_on_one_circle() -> None:
         moved[4] *= 1 + off / 5
         assert is_round(replace(even, vertices=moved)) is found
     assert not is_round(replace(even, vertices=even.vertices + 1e-9))
+
+
+@pytest.mark.parametrize("teeth", [35, 50])
+def test_no_triangle_between_digits_is_turned_over_by_the_numbers_of_a_file(teeth: int, tmp_path: Path) -> None:
+    """Corners of three strokes in one line: by fractions of the float32 numbers that the STL has."""
+    (tmp_path / "s.toml").write_text(
+        f'[parts.p]\nkind = "ring_gear"\nmodule = 0.5\nnumber_of_teeth = {teeth}\nface_width = 5.0\ntooth_mark = {{}}\n'
+        '[[exports]]\nformat = "stl"\n'
+    )
+    assert main(["build", str(tmp_path / "s.toml"), "--out", str(tmp_path), "-q"]) == 0
+    data = (tmp_path / "s" / "p.stl").read_bytes()
+    rows = np.frombuffer(data[84:], np.dtype([("n", "<3f4"), ("v", "<3,3f4"), ("a", "<u2")]))["v"]
+    tops = [row for row in rows.tolist() if all(z == 5.0 for _, _, z in row)]
+    areas = [(b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+             for a, b, c in ([[Fraction(x) for x in place] for place in row] for row in tops)]  # fmt: skip
+    assert len(areas) > 300
+    assert min(areas) > 0
