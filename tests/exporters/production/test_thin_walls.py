@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -67,10 +67,13 @@ def test_more_edges_than_a_file_carries_are_refused_with_what_leaves_fewer(
 ) -> None:
     """The number of arcs goes by the cube root of the tolerance, that of chords by the square root."""
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 12, "face_width": 3.0}
-    for form, more, order in (("svg", {}, 3), ("svg", {"curves": "lines"}, 2), ("stl", {}, 2)):
+    rows: list[tuple[str, dict[str, Any], int, int]] = [
+        ("svg", {}, 3, 1), ("svg", {"curves": "lines"}, 2, 1), ("stl", {}, 2, 2), ("3mf", {}, 2, 4)
+    ]  # fmt: skip
+    for form, more, order, heavier in rows:
         (job,) = planned(gear, format=form, tolerance=0.005, **more).jobs
         with monkeypatch.context() as patch:
-            patch.setattr("exporters.formats.registry._MOST_EDGES", 100)
+            patch.setattr("exporters.formats.registry._MOST_EDGES", 100 * heavier)
             with pytest.raises(ParameterError) as found:
                 shape_of(job)
             refusal = found.value
@@ -81,8 +84,23 @@ def test_more_edges_than_a_file_carries_are_refused_with_what_leaves_fewer(
             exact = 0.005 * (edges / 100) ** order
             assert exact <= refusal.nearest.value <= exact + 1e-6
             # as many as may be
-            patch.setattr("exporters.formats.registry._MOST_EDGES", edges)
+            patch.setattr("exporters.formats.registry._MOST_EDGES", edges * heavier)
             shape_of(job)
+
+
+@pytest.mark.parametrize("form", ["stl", "3mf"])
+def test_a_mesh_that_would_take_a_laptop_s_memory_is_refused_before_it_is_made(form: str, tmp_path: Path) -> None:
+    """Module 0.01 on a face of 10 mm: a 3MF of 8 million triangles took 11 GB; what is offered is of 3 GB at most."""
+    gear = {"kind": "spur_gear", "module": 0.01, "number_of_teeth": 20, "face_width": 10.0, "helix_angle_deg": 20.0}
+    found = refused(gear, tmp_path, format=form, tolerance=1e-5)
+    assert (found.key, found.code) == ("exports[1].tolerance", "too_many_edges")
+    assert found.nearest is not None
+    (job,) = planned(gear, format=form, tolerance=found.nearest.value).jobs
+    chords = cast("tuple[Approximation, ...]", shape_of(job))
+    # two triangles on each piece of each slice
+    triangles = 2 * sum(len(a.geometry) * abs(job.part.body(0.0).twist(w)) / a.turn_step
+                        for a in chords for w in job.part.body(0.0).walls)  # fmt: skip
+    assert triangles < {"stl": 4e6, "3mf": 2e6}[form]
 
 
 @pytest.mark.parametrize("more", [{}, {"helix_angle_deg": 25.0}, {"helix_angle_deg": 25.0, "bore_diameter": 5.0}])
