@@ -97,16 +97,18 @@ def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: compl
         if not {mate.first.part, mate.second.part} <= wanted or (found := mate.rollers()) is None:
             continue
         pins, ends = (found[0] - centre) / way, list[complex]()
-        for axis in ((one.centre - centre) / way for one in (mate.first, mate.second)):
+        about = mate.mating.about((mate.first.centre, mate.first.rotation), (mate.second.centre, mate.second.rotation))
+        for axis, is_outside in (((one - centre) / way, is_outside) for one, is_outside in about):
             apart = np.abs(pins - axis)
             seated = apart <= apart.min() * (1 + _SEATED)
             # the first of them follows one that is not, clockwise
             start = int(np.flatnonzero(seated & ~np.roll(seated, 1))[0])
             last = (start + int(seated.sum()) - 1) % len(pins)
-            yield AXIS, arc_between(axis, complex(pins[start]), complex(pins[last]), turns_left=False)
+            if start != last:
+                yield AXIS, arc_between(axis, complex(pins[start]), complex(pins[last]), turns_left=is_outside)
             ends += [complex(pins[start]), complex(pins[last])]
-        yield AXIS, Line(ends[1], ends[2])
-        yield AXIS, Line(ends[3], ends[0])
+        for one, two in zip(ends[1::2], [*ends[2::2], ends[0]], strict=True):
+            yield AXIS, Line(one, two)
 
 
 def _foot(mate: PlacedMate, first: complex, second: Placement3) -> complex:

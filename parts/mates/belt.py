@@ -6,16 +6,18 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
-from msgspec import Meta
+from msgspec import Meta, field
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
-from parts.mates.wrapped import Wrapped, gap_away
+from parts.mates.wrapped import Idlers, IdlerTable, Wrapped, check_idlers, gap_away, idler_quantities
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geometry.base.findings import Finding
     from geometry.curves.curve import Complex
     from geometry.gears.belts.drive import BeltMesh
@@ -40,6 +42,7 @@ class BeltDriveSpec(MateKeys, tag="belt_drive", kw_only=True):
     second: Annotated[str, Meta(description="instance that the belt drives, or that drives it")]
     number_of_belt_teeth: BeltTeeth | None = None
     centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
+    idlers: Idlers = field(default_factory=list)
     direction_deg: Direction = 0.0
     height: Annotated[float, height("second above the first; default: teeth face each other")] | None = None
 
@@ -76,6 +79,7 @@ class BeltMating(Wrapped):
     def quantities(self) -> dict[str, Any]:
         """Teeth and length of the belt, distance, ratio, wrap, teeth in mesh, what the belt is longer than taut, mm."""
         mesh = self.mesh
+        about = idler_quantities(mesh.drive.idler_wraps, mesh.taut_idler) if mesh.idlers else {}
         return {
             "number_of_belt_teeth": mesh.belt_teeth,
             "belt_length": mesh.belt_teeth * mesh.pitch,
@@ -85,6 +89,7 @@ class BeltMating(Wrapped):
             "teeth_in_mesh": mesh.in_mesh,
             "belt_slack": max(mesh.slack, 0.0),
             "rim_gap": mesh.rim_gap,
+            **about,
         }
 
 
@@ -101,7 +106,7 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
         if two.belt != one.belt:
             named, own = (getattr(end.keys, "belt", None) for end in (first, second))
             raise ParameterError("belt", own, "not_of_the_belt", Nearest(named) if isinstance(named, str) else None)
-        mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance)
+        mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance, keys.idlers)
         return BeltMating(
             *self.joined(keys),
             height=one.middle - two.middle if keys.height is None else keys.height,
@@ -109,18 +114,26 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
             module=one.belt.pitch / math.pi,
             teeth=(one.number_of_teeth, two.number_of_teeth),
             mesh=mesh,
+            idlers=mesh.idlers,
         )
 
 
 def belt_mesh(
-    pulleys: tuple[Pulley, Pulley], teeth: int | None, distance: float | None, prefix: str = "mate."
+    pulleys: tuple[Pulley, Pulley],
+    teeth: int | None,
+    distance: float | None,
+    idlers: Sequence[IdlerTable] = (),
+    prefix: str = "mate.",
 ) -> BeltMesh:
     """The drive of two pulleys by the belt's teeth, its centre distance (mm), or both; ``prefix``: of their keys.
+
+    With idlers, which stand where they do, by the distance, and the belt's teeth if they are told.
 
     Raises
     ------
     ParameterError
-        None of both is given, the pulleys meet, the belt is too short or too long; names the key and what works.
+        None of both is given, the pulleys meet, the belt is too short or too long, or does not come to an idler; names
+        the key and what works.
     """
     from geometry.gears.belts.drive import BeltDrive, BeltMesh, exact_distance
 
@@ -132,6 +145,17 @@ def belt_mesh(
         raise ParameterError(keys[0], None, "one_of_two_is_missing", other="centre_distance")
     if distance is not None and distance < least:
         raise ParameterError(keys[1], distance, "pulleys_meet", limit(least, distance))
+    if idlers:
+        if distance is None:
+            raise ParameterError(keys[1], None, "missing_beside_idlers")
+        wheels = tuple(one.wheel(f"{prefix}idlers[{k}]", pitch / (2 * math.pi)) for k, one in enumerate(idlers, 1))
+        drive = BeltDrive(radii, distance, wheels)
+        check_idlers(drive.loop, wheels, prefix)
+        fewest = math.ceil((drive.length - PLACED_MM) / pitch)
+        if teeth is not None and teeth != fewest:
+            cure = Nearest(fewest)
+            raise ParameterError(keys[0], teeth, "belt_does_not_fit", cure, length=drive.length, teeth=fewest)
+        return BeltMesh(pulleys, distance, fewest, wheels)
     most = _MOST_TEETH if teeth is None else teeth
     found = exact_distance(radii, most * pitch, least)
     if found is None:

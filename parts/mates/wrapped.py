@@ -2,13 +2,85 @@
 
 from __future__ import annotations
 
+import cmath
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated
 
-from parts.base.mate import Toothed
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from parts.base.mate import Pose, Toothed
+from parts.keys.base import MOST_LENGTH, either, mm
 
 if TYPE_CHECKING:
     from geometry.kinematics.mechanism import Kind
+    from geometry.plane.loop import Loop, Wheel
+
+_FAR = 1e6
+_AT = Meta(
+    min_length=2,
+    max_length=2,
+    description="its axis from that of the first, mm: towards the second, and to the left of that; left of it in the"
+    " strand on the left",
+    examples=[[40.0, 14.0]],
+)
+_NUMBER_OF_TEETH = Meta(ge=6, le=500, description="of a toothed one", examples=[20])
+_DIAMETER = mm("of a smooth one", above=0, most=2 * MOST_LENGTH, example=12.0)
+_OVER = mm("from its rim to the pitch line of the belt", least=-MOST_LENGTH, most=MOST_LENGTH, example=0.4)
+
+
+class IdlerTable(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A wheel that guides or tightens what is about two others: toothed or smooth."""
+
+    at: Annotated[list[Annotated[float, mm("a part of it", least=-_FAR, most=_FAR)]], _AT]
+    outside: Annotated[bool, Meta(description="whether it presses from outside of the loop")] = False
+    number_of_teeth: Annotated[int, _NUMBER_OF_TEETH] | None = None
+    diameter: Annotated[float, _DIAMETER] | None = None
+    pitch_line_offset: Annotated[float, _OVER] = 0.0
+
+    def wheel(self, name: str, pitch_radius: float) -> Wheel:
+        """It by the pitch line about it; ``pitch_radius``: of one tooth, mm.
+
+        Raises
+        ------
+        ParameterError
+            Both teeth and diameter are told, or neither.
+        """
+        from geometry.plane.loop import Wheel
+
+        if self.number_of_teeth is not None and self.diameter is not None:
+            raise either(f"{name}.diameter", self.diameter, "number_of_teeth", None)
+        if self.number_of_teeth is not None:
+            radius = self.number_of_teeth * pitch_radius
+        elif self.diameter is not None:
+            radius = self.diameter / 2 + self.pitch_line_offset
+        else:
+            raise ParameterError(f"{name}.number_of_teeth", None, "one_of_two_is_missing", other="diameter")
+        if radius <= 0:
+            raise ParameterError(f"{name}.pitch_line_offset", self.pitch_line_offset, "idler_of_no_size")
+        return Wheel(complex(*self.at), radius, self.outside)
+
+
+Idlers = Annotated[
+    list[IdlerTable],
+    Meta(max_length=20, examples=[[{"at": [40.0, 14.0], "diameter": 12.0, "outside": True}]]),
+]
+
+
+def check_idlers(loop: Loop, idlers: Sequence[Wheel], prefix: str) -> None:
+    """Refuse idlers to which the loop does not come.
+
+    Raises
+    ------
+    ParameterError
+        ``idlers[k].at`` of one of them.
+    """
+    missed = [loop.wheels[k] for k in loop.missed()]
+    for wheel in missed:
+        if wheel in idlers:
+            name = f"{prefix}idlers[{idlers.index(wheel) + 1}].at"
+            raise ParameterError(name, [wheel.centre.real, wheel.centre.imag], "idler_missed")
 
 
 class Wrapped(Toothed, kw_only=True):
@@ -16,8 +88,23 @@ class Wrapped(Toothed, kw_only=True):
 
     rolls: Kind | None = "internal"
     has_contact: bool = False
+    idlers: tuple[Wheel, ...] = ()
+
+    def about(self, first: Pose, second: Pose) -> list[tuple[complex, bool]]:
+        """Axes of all wheels in the order in which the loop comes to them, and whether they stand outside of it."""
+        way = cmath.rect(1.0, cmath.phase(second[0] - first[0]))
+        along = sorted(self.idlers, key=lambda idler: idler.centre.real)
+        upper, lower = ([w for w in along if (w.centre.imag > 0) == is_upper] for is_upper in (True, False))
+        own = [[(first[0] + way * w.centre, w.outside) for w in side] for side in (upper, lower[::-1])]
+        return [(first[0], False), *own[0], (second[0], False), *own[1]]
 
 
 def gap_away(rotation: float, direction: float, step: float) -> float:
     """Phase of the first wheel's gap that is nearest to the side away from the second, rad; ``step`` between gaps."""
     return math.pi + math.remainder(rotation - direction + step / 2 - math.pi, step)
+
+
+def idler_quantities(wraps: Sequence[float], taut: complex | None) -> dict[str, float]:
+    """The least angle of wrap on an idler, and where the last one makes all taut, if it does."""
+    place = {} if taut is None else {"taut_idler_x": taut.real, "taut_idler_y": taut.imag}
+    return {"idler_wrap_deg": math.degrees(min(wraps)), **place}

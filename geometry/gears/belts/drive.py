@@ -1,13 +1,13 @@
-"""Two pulleys and a timing belt: its length, centre distance, phases, teeth in mesh.
+"""Two pulleys, any idlers and a timing belt: its length, centre distance, phases, teeth in mesh.
 
-The belt's pitch line is two arcs and the straight lines that touch both. Frame: axis of the first pulley at the
+The belt's pitch line is arcs and the straight lines that touch them. Frame: axis of the first pulley at the
 origin, the second's on +x; a phase is the polar angle of a groove. Lengths in mm.
 """
 
 from __future__ import annotations
 
-import cmath
 import math
+from functools import cached_property
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex
 from geometry.gears.belts.pulley import Pulley
+from geometry.plane.loop import Loop, Wheel
 
 # of the smaller pulley that carry at least, by makers' handbooks
 _LEAST_IN_MESH = 6
@@ -23,58 +24,58 @@ _LEAST_IN_MESH = 6
 _LOOSE = 0.01
 
 
-class BeltDrive(Record):
-    """Two pulleys whose pitch circles have these ``radii``, a ``distance`` apart."""
+class BeltDrive(Record, dict=True):
+    """Two pulleys whose pitch circles have these ``radii``, a ``distance`` apart, and ``idlers`` in their frame.
+
+    What of these stands on the left of the line of centres is in the upper strand.
+    """
 
     radii: tuple[float, float]
     distance: float
+    idlers: tuple[Wheel, ...] = ()
+
+    @cached_property
+    def loop(self) -> Loop:
+        """The belt's pitch line, the first pulley first."""
+        along = sorted(self.idlers, key=lambda idler: idler.centre.real)
+        upper, lower = ([w for w in along if (w.centre.imag > 0) == is_upper] for is_upper in (True, False))
+        first, second = (Wheel(complex(x), r) for x, r in zip((0.0, self.distance), self.radii, strict=True))
+        return Loop((first, *upper, second, *reversed(lower)))
 
     @property
-    def normal(self) -> float:
-        """Polar angle at which the upper strand leaves both pitch circles, rad."""
-        return math.acos((self.radii[0] - self.radii[1]) / self.distance)
+    def second(self) -> int:
+        """Which wheel of the loop the second pulley is."""
+        return 1 + sum(idler.centre.imag > 0 for idler in self.idlers)
 
     @property
-    def strand(self) -> float:
-        """Length of a strand between both."""
-        apart = self.radii[0] - self.radii[1]
-        return math.sqrt((self.distance - apart) * (self.distance + apart))
+    def wraps(self) -> tuple[float, float]:
+        """Angles of wrap on both pulleys, rad."""
+        return self.loop.wraps[0], self.loop.wraps[self.second]
 
     @property
     def wrap(self) -> float:
-        """Angle of wrap on the smaller pulley, rad."""
-        return 2 * min(self.normal, math.pi - self.normal)
+        """The smaller angle of wrap, rad."""
+        return min(self.wraps)
+
+    @property
+    def idler_wraps(self) -> tuple[float, ...]:
+        """Angles of wrap on the idlers as they are told, rad."""
+        return tuple(self.loop.wraps[self.loop.wheels.index(idler)] for idler in self.idlers)
 
     @property
     def length(self) -> float:
         """Of the taut belt."""
-        first, second = self.radii
-        return 2 * (self.strand + (math.pi - self.normal) * first + self.normal * second)
+        return self.loop.length
 
     def second_phase(self, first: float, pitch: float) -> float:
         """Phase of the second near 0, at one of the first near pi: whole pitches over the taut upper strand, rad."""
-        (r1, r2), normal = self.radii, self.normal
-        way = (first - normal) * r1 + self.strand
         # from the first's groove to where the second's polar angle is 0
-        there = way + normal * r2
-        return (there - pitch * round(there / pitch)) / r2
+        there = self.loop.way(self.second, 0.0) - self.loop.way(0, first) + self.length
+        return (there - pitch * round(there / pitch)) / self.radii[1]
 
     def teeth(self, first: float, pitch: float, count: int) -> Complex:
         """Places (count,) of the belt's teeth on its pitch line, clockwise from the first's groove at its phase."""
-        (r1, r2), normal, strand = self.radii, self.normal, self.strand
-        ways = (np.arange(count) * pitch + (normal - first) * r1) % self.length
-        on_second, on_first = 2 * normal * r2, 2 * (math.pi - normal) * r1
-        upper, lower = cmath.rect(1.0, normal), cmath.rect(1.0, -normal)
-        along = -1j * upper, -1j * lower
-        ends = r1 * upper, self.distance + r2 * lower
-        turned = self.distance + r2 * upper * np.exp(-1j * (ways - strand) / r2)
-        back = ways - 2 * strand - on_second
-        found: Complex = np.select(
-            [ways < strand, ways < strand + on_second, back < 0],
-            [ends[0] + along[0] * ways, turned, ends[1] + along[1] * (ways - strand - on_second)],
-            r1 * lower * np.exp(-1j * np.minimum(back, on_first) / r1),
-        )
-        return found
+        return self.loop.places(self.loop.way(0, first) + pitch * np.arange(count, dtype=float))
 
 
 def exact_distance(radii: tuple[float, float], length: float, least: float) -> float | None:
@@ -97,11 +98,12 @@ def textbook_distance(radii: tuple[float, float], length: float) -> float | None
 
 
 class BeltMesh(Record):
-    """Two pulleys and their belt of ``belt_teeth`` teeth."""
+    """Two pulleys and their belt of ``belt_teeth`` teeth, about ``idlers`` too."""
 
     pulleys: tuple[Pulley, Pulley]
     centre_distance: float
     belt_teeth: int
+    idlers: tuple[Wheel, ...] = ()
 
     @property
     def pitch(self) -> float:
@@ -111,7 +113,9 @@ class BeltMesh(Record):
     @property
     def drive(self) -> BeltDrive:
         """Of the pitch circles."""
-        return BeltDrive((self.pulleys[0].pitch_radius, self.pulleys[1].pitch_radius), self.centre_distance)
+        return BeltDrive(
+            (self.pulleys[0].pitch_radius, self.pulleys[1].pitch_radius), self.centre_distance, self.idlers
+        )
 
     @property
     def slack(self) -> float:
@@ -120,8 +124,17 @@ class BeltMesh(Record):
 
     @property
     def in_mesh(self) -> float:
-        """Teeth of the smaller pulley within the angle of wrap."""
-        return self.drive.wrap / (2 * math.pi) * min(p.number_of_teeth for p in self.pulleys)
+        """Teeth within the angle of wrap, of the pulley that has fewer of them."""
+        wrapped = zip(self.pulleys, self.drive.wraps, strict=True)
+        return min(p.number_of_teeth * wrap / (2 * math.pi) for p, wrap in wrapped)
+
+    @property
+    def taut_idler(self) -> complex | None:
+        """Where the last idler makes the belt taut, straight on from where it stands; None: nowhere."""
+        loop = self.drive.loop
+        wheel = loop.wheels.index(self.idlers[-1])
+        taut = loop.tightened(wheel, self.belt_teeth * self.pitch)
+        return None if taut is None else taut.wheels[wheel].centre
 
     @property
     def rim_gap(self) -> float:

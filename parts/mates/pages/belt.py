@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from msgspec import Meta
+from msgspec import Meta, field
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
@@ -16,7 +16,8 @@ from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
 from parts.belts.steps import belt_steps, circle_steps
 from parts.keys.base import MOST_LENGTH, mm, size
 from parts.mates.belt import BeltDriveSpec, BeltTeeth, belt_mesh
-from parts.mates.pages.drive_keys import drive_of_kind
+from parts.mates.pages.drive_keys import drive_of_kind, idler_steps
+from parts.mates.wrapped import Idlers
 from parts.pages.force_steps import both_speeds, driving_torque
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
@@ -42,6 +43,7 @@ class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=
     mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
     mate_outer_diameter: Annotated[float, _MATE_OUTER_DIAMETER] | None = None
     number_of_belt_teeth: BeltTeeth | None = None
+    idlers: Idlers = field(default_factory=list)
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=150.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
     torque: Annotated[float, size("N*m", _TORQUE, above=0, most=1e9)] | None = None
@@ -49,7 +51,7 @@ class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=
 
 
 table_from = drive_of_kind(
-    "timing_pulley", BeltDriveSpec, ["outer_diameter"], "number_of_belt_teeth", "centre_distance"
+    "timing_pulley", BeltDriveSpec, ["outer_diameter"], "number_of_belt_teeth", "centre_distance", "idlers"
 )
 
 
@@ -58,7 +60,7 @@ def sheet(keys: BeltKeys) -> Sheet:
     """The calculation of a timing belt drive."""
     one = TIMING_PULLEY.thing(keys, {})
     two = _driven(keys, one)
-    mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance, "")
+    mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance, keys.idlers, "")
     page = Sheet(TOPIC, N_("Timing belt drive"))
     page.section("Given")
     page.both("number_of_teeth", (one.number_of_teeth, two.number_of_teeth))
@@ -104,16 +106,24 @@ def _length(page: Sheet, mesh: BeltMesh, distance: float | None) -> None:
     drive = mesh.drive
     if distance is not None:
         page.add("belt_distance", distance, given=True)
+    if distance is not None and not mesh.idlers:
         formula = "2 * {a} + pi / 2 * ({d1} + {d2}) + ({d2} - {d1})**2 / (4 * {a})"
         page.add("textbook_belt_length", textbook_length(drive.radii, distance), formula)
     page.add("number_of_belt_teeth", mesh.belt_teeth)
     length = mesh.belt_teeth * mesh.pitch
     page.add("belt_length", length, "{z_b} * {p}")
+    if mesh.idlers:
+        page.add("taut_loop_length", drive.length)
+        page.add("belt_slack", max(mesh.slack, 0.0), "{L_b} - {L_0}")
+        page.both("loop_wrap_deg", [math.degrees(wrap) for wrap in drive.wraps])
+        idler_steps(page, drive.idler_wraps, mesh.taut_idler)
+        page.add("teeth_in_mesh", mesh.in_mesh)
+        return
     near = textbook_distance(drive.radii, length)
     if near is not None:
         free = "(2 * {L_b} - pi * ({d1} + {d2}))"
         page.add("textbook_belt_distance", near, f"({free} + sqrt({free}**2 - 8 * ({{d2}} - {{d1}})**2)) / 8")
-    exact = belt_mesh(mesh.pulleys, mesh.belt_teeth, None, "").centre_distance
+    exact = belt_mesh(mesh.pulleys, mesh.belt_teeth, None, prefix="").centre_distance
     page.add("exact_belt_distance", exact)
     if distance is not None:
         page.add("belt_slack", max(mesh.slack, 0.0))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from parts.base.mate import MateKeys
 from parts.pages.inputs import SceneKeys, chosen_part, given
+from parts.pages.page import Sheet
 
 # how a page takes its keys from a scene, its source and what was asked besides
 TableFrom = Callable[[SceneKeys, str, dict[str, Any]], dict[str, Any]]
@@ -26,10 +28,18 @@ def drive_of_kind(kind: str, mate: type[MateKeys], own: Sequence[str], *lengths:
                 ends.setdefault(str(scene.instances[one.first].part), one)
         found = ends[chosen_part(kind, [*ends], [*ends], source, table)]
         first, second = (given(scene.parts[str(scene.instances[key].part)]) for key in (found.first, found.second))
-        asked = {key: value for key in lengths if (value := getattr(found, key)) is not None}
+        asked = {key: value for key in lengths if (value := getattr(found, key)) not in (None, [])}
         teeth = {"mate_number_of_teeth": second["number_of_teeth"]}
         if not teeth.keys() & table.keys():
             asked |= {f"mate_{key}": second[key] for key in own if key in second}
         return first | asked | teeth | table
 
     return table_from
+
+
+def idler_steps(page: Sheet, wraps: Sequence[float], taut: complex | None) -> None:
+    """The angle of wrap on each idler, and where the last one makes all taut."""
+    for k, wrap in enumerate(wraps, 1):
+        page.add("idler_wrap_deg", math.degrees(wrap), "", "", k)
+    if taut is not None:
+        page.told(taut_idler_x=taut.real, taut_idler_y=taut.imag)

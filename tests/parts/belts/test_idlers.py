@@ -1,0 +1,92 @@
+"""Belt drives with idlers: length, wraps, teeth in mesh, where the tensioner makes the belt taut, refusals."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
+from tests.exporters.making import table, write_scene
+from tests.parts.belts.test_timing_pulleys import LARGE, MATE, PLATE, Keys, placed
+
+# a ball bearing of 10 mm on the back of a belt GT2, whose pitch line is 0.38 mm off it
+ROLLER: Keys = {"at": [30.0, 15.5], "diameter": 10.0, "pitch_line_offset": 0.38, "outside": True}
+
+
+def told(idlers: list[Keys], two: Keys = PLATE, **mate: Any) -> dict[str, Any]:
+    (found,) = placed({"centre_distance": 60.0, "idlers": idlers} | mate, PLATE, two)[1]["mates"]
+    return dict(found)
+
+
+def test_a_tensioner_from_outside_takes_up_the_belt() -> None:
+    """Two pulleys of 20 teeth, the roller above the middle between them: right triangles of the inner tangents."""
+    radius, roller, height = 20.0 / math.pi, 5.38, 11.0
+    far = math.hypot(30.0, height)
+    lean = math.asin((radius + roller) / far) - math.atan2(height, 30.0)
+    length = 2 * math.sqrt(far**2 - (radius + roller) ** 2) + 2 * lean * roller + 2 * (math.pi + lean) * radius + 60.0
+    found = told([ROLLER | {"at": [30.0, height]}])
+    assert found["number_of_belt_teeth"] == math.ceil(length / 2)
+    assert found["belt_slack"] == pytest.approx(2 * math.ceil(length / 2) - length, abs=1e-9)
+    assert found["idler_wrap_deg"] == pytest.approx(math.degrees(2 * lean))
+    assert found["teeth_in_mesh"] == pytest.approx(20 * (math.pi + lean) / (2 * math.pi))
+    # moved to where it is told to be, it makes the belt taut
+    place = [found["taut_idler_x"], found["taut_idler_y"]]
+    assert place[0] == pytest.approx(30.0, abs=1e-9)
+    assert place[1] < height
+    moved = told([ROLLER | {"at": [30.0, round(place[1], 4)]}], number_of_belt_teeth=found["number_of_belt_teeth"])
+    assert moved["belt_slack"] < 1e-3
+    assert "belt_hangs_loose" in json.dumps(found)
+    assert "belt_hangs_loose" not in json.dumps(moved)
+
+
+def test_an_idler_inside_turns_the_second_on_by_the_longer_strand() -> None:
+    """Its pulley stands where its grooves take the belt's teeth, and the belt goes about the idler too."""
+    idlers = [{"at": [25.0, 22.0], "number_of_teeth": 16}, ROLLER | {"at": [28.0, -17.5]}]
+    placing = placed({"centre_distance": 60.0, "idlers": idlers}, PLATE, LARGE)[0]
+    (mate,) = placing.mates
+    rollers = mate.rollers()
+    assert rollers is not None
+    seated = [p for p in (rollers[0] - 60.0).tolist() if abs(abs(p) - 60 / math.pi) < 1e-9]
+    assert len(seated) >= 25
+    for at in seated:
+        # grooves stand half a pitch beside tooth 1
+        off = math.remainder(math.atan2(at.imag, at.real) - mate.second.rotation + math.pi / 60, math.pi / 30)
+        assert abs(off) < 1e-9
+    idler = [p for p in rollers[0].tolist() if abs(abs(p - (25 + 22j)) - 16 / math.pi) < 1e-9]
+    assert len(idler) >= 2
+
+
+def test_calc_takes_the_drive_and_its_idlers_from_a_scene(tmp_path: Path) -> None:
+    mate = MATE | {"centre_distance": 60.0, "idlers": [ROLLER]}
+    scene = write_scene(tmp_path / "s.toml", {"a": PLATE, "b": LARGE}, [{"format": "stl"}], table("[[mates]]", mate))
+    values = json.loads(calculate("belt", [str(scene)], "json", "en"))["values"]
+    found = told([ROLLER], LARGE)
+    assert values["belt_slack"] == pytest.approx(found["belt_slack"])
+    assert values["taut_loop_length"] == pytest.approx(found["belt_length"] - found["belt_slack"])
+    assert values["loop_wrap_deg"]["first"] == pytest.approx(found["wrap_deg"])
+    # without it the belt is shorter
+    assert json.loads(calculate("belt", ["belt_drive"], "json", "en"))["values"]["belt_length"] == 200.0
+    assert "textbook_belt_length" not in values
+
+
+@pytest.mark.parametrize(
+    ("mate", "words"),
+    [
+        ({"idlers": [ROLLER | {"at": [30.0, 25.0]}]}, r"idlers\[1\].at = \[30.0, 25.0\]: is not where it comes"),
+        ({"idlers": [{"at": [30.0, 0.0], "diameter": 4.0}]}, r"idlers\[1\].at"),
+        ({"idlers": [ROLLER], "centre_distance": None, "number_of_belt_teeth": 100}, r"centre_distance.*missing"),
+        ({"idlers": [{"at": [30.0, 15.0]}]}, r"idlers\[1\].number_of_teeth.*diameter"),
+        ({"idlers": [ROLLER | {"number_of_teeth": 20}]}, r"idlers\[1\].diameter"),
+        ({"idlers": [ROLLER | {"pitch_line_offset": -5.0}]}, r"idlers\[1\].pitch_line_offset"),
+        ({"idlers": [ROLLER], "number_of_belt_teeth": 80}, r"number_of_belt_teeth = 80: .*; 10\d works"),
+    ],
+)
+def test_idlers_that_do_not_go_are_refused_by_their_key(mate: Keys, words: str) -> None:
+    keys = {k: v for k, v in ({"centre_distance": 60.0} | mate).items() if v is not None}
+    with pytest.raises(SceneError, match=words):
+        placed(keys)
