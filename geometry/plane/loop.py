@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from functools import cached_property
 from itertools import combinations
 
@@ -19,6 +20,8 @@ from geometry.curves.curve import Complex, Real
 _TURN = 2 * math.pi
 # part of a radius by which a strand may run into a circle
 _SAME = 1e-9
+# how often a way is doubled until it is far enough
+_DOUBLED = 60
 
 
 class Wheel(Record):
@@ -97,7 +100,7 @@ class Loop(Record, dict=True):
         return found
 
     def tightened(self, wheel: int, length: float) -> Loop | None:
-        """The loop with a wheel pressed on, straight on, until it is so long; None: something stands in its way."""
+        """The loop with a wheel moved straight on, or back, until it is so long; None: something stands in its way."""
         pressed = self.ways[wheel - 1] - self.ways[wheel]
 
         def moved(share: float) -> Loop:
@@ -105,12 +108,14 @@ class Loop(Record, dict=True):
             at = replace(own, centre=own.centre + share * pressed)
             return Loop((*self.wheels[:wheel], at, *self.wheels[wheel + 1 :]))
 
-        if length <= self.length:
-            return self
         most = (length - self.length) / abs(pressed) ** 2
-        while moved(most).length < length:
+        for _ in range(_DOUBLED):
+            if (moved(most).length - length) * most >= 0:
+                break
             most *= 2
-        found = moved(bracketed_root(lambda share: moved(share).length - length, 0.0, most).value)
+        else:
+            return None
+        found = moved(bracketed_root(lambda share: moved(share).length - length, *sorted((0.0, most))).value)
         return None if found.missed() else found
 
     def missed(self) -> tuple[int, ...]:
@@ -134,6 +139,17 @@ class Loop(Record, dict=True):
                 if _cross(start, end, other, last):
                     return (k + 1) % count, k, (j + 1) % count, j
         return ()
+
+
+def about_two(radii: tuple[float, float], distance: float, idlers: Sequence[Wheel]) -> tuple[Loop, int]:
+    """The loop about a wheel at the origin, one on +x and idlers, and which wheel of it the second one is.
+
+    What of the idlers stands on the left of the line of centres is in the strand on the left.
+    """
+    along = sorted(idlers, key=lambda idler: idler.centre.real)
+    left, right = ([w for w in along if (w.centre.imag > 0) == is_left] for is_left in (True, False))
+    first, second = (Wheel(complex(x), r) for x, r in zip((0.0, distance), radii, strict=True))
+    return Loop((first, *left, second, *reversed(right))), 1 + len(left)
 
 
 def _distance(point: complex, start: complex, end: complex) -> float:

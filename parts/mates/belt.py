@@ -13,7 +13,7 @@ from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
-from parts.mates.wrapped import Idlers, IdlerTable, Wrapped, check_idlers, gap_away, idler_quantities
+from parts.mates.wrapped import Idlers, IdlerTable, Wrapped, check_idlers, gap_away, idler_quantities, idler_wheels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from geometry.curves.curve import Complex
     from geometry.gears.belts.drive import BeltMesh
     from geometry.gears.belts.pulley import Pulley
+    from geometry.plane.loop import Loop
 
 # teeth of a belt at most
 _MOST_TEETH = 10_000
@@ -51,6 +52,11 @@ class BeltMating(Wrapped):
     """Two pulleys of one belt."""
 
     mesh: BeltMesh
+
+    @property
+    def loop(self) -> Loop:
+        """About the pitch circles."""
+        return self.mesh.drive.loop
 
     def _groove(self, rotation: float, direction: float) -> float:
         return gap_away(rotation, direction, self.mesh.pulleys[0].pitch_angle)
@@ -114,7 +120,6 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
             module=one.belt.pitch / math.pi,
             teeth=(one.number_of_teeth, two.number_of_teeth),
             mesh=mesh,
-            idlers=mesh.idlers,
         )
 
 
@@ -148,9 +153,9 @@ def belt_mesh(
     if idlers:
         if distance is None:
             raise ParameterError(keys[1], None, "missing_beside_idlers")
-        wheels = tuple(one.wheel(f"{prefix}idlers[{k}]", pitch / (2 * math.pi)) for k, one in enumerate(idlers, 1))
+        wheels = idler_wheels(idlers, prefix, lambda teeth: teeth * pitch / (2 * math.pi))
         drive = BeltDrive(radii, distance, wheels)
-        check_idlers(drive.loop, wheels, prefix)
+        check_idlers(drive.loop, wheels, idlers, prefix)
         fewest = math.ceil((drive.length - PLACED_MM) / pitch)
         if teeth is not None and teeth != fewest:
             cure = Nearest(fewest)

@@ -7,7 +7,7 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
-from msgspec import Meta
+from msgspec import Meta, field
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.tolerance import PLACED_MM
@@ -15,14 +15,17 @@ from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
 from parts.mates.sizes import same_size, same_sizes
-from parts.mates.wrapped import Wrapped, gap_away
+from parts.mates.wrapped import Idlers, IdlerTable, Wrapped, check_idlers, gap_away, idler_quantities, idler_wheels
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from geometry.base.findings import Finding
     from geometry.curves.curve import Complex
     from geometry.gears.chains.drive import ChainMesh
     from geometry.gears.chains.sprocket import Sprocket
     from geometry.gears.mesh.search import PairContact
+    from geometry.plane.loop import Loop
 
 # numbers of links that are tried where one is too small
 _TRIED = 4096
@@ -43,6 +46,7 @@ class ChainDriveSpec(MateKeys, tag="chain_drive", kw_only=True):
     second: Annotated[str, Meta(description="instance that the chain drives, or that drives it")]
     number_of_links: Annotated[int, _NUMBER_OF_LINKS] | None = None
     centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
+    idlers: Idlers = field(default_factory=list)
     direction_deg: Direction = 0.0
     height: Annotated[float, height("second above the first; default: the rows of teeth face each other")] | None = None
 
@@ -51,6 +55,11 @@ class ChainMating(Wrapped):
     """Two sprockets of one chain."""
 
     mesh: ChainMesh
+
+    @property
+    def loop(self) -> Loop:
+        """About the pitch circles, in pitches."""
+        return self.mesh.drive.loop
 
     def _second(self, rotation: float, direction: float) -> tuple[float, float]:
         """Rotation of the second in the middle of its play, and half of that, rad."""
@@ -93,7 +102,9 @@ class ChainMating(Wrapped):
 
     def quantities(self) -> dict[str, Any]:
         """Links, distance, ratio, wrap, what the chain is longer than a taut one, and what is between the tips, mm."""
-        teeth = self.mesh.teeth
+        mesh = self.mesh
+        teeth = mesh.teeth
+        about = idler_quantities(mesh.drive.idler_wraps, mesh.taut_idler) if mesh.idlers else {}
         return {
             "number_of_links": self.mesh.links,
             "working_centre_distance": self.distance,
@@ -102,6 +113,7 @@ class ChainMating(Wrapped):
             # a taut chain is none but for rounding
             "chain_slack": max(round(self.mesh.slack, 9), 0.0),
             "tip_gap": self.mesh.tip_gap,
+            **about,
         }
 
 
@@ -119,7 +131,7 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
         same_size("strands", two.strands, one.strands, "not_of_the_chain")
         if one.strands > 1:
             same_sizes(("transverse_pitch",), two.chain, one.chain, "not_of_the_chain")
-        mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance)
+        mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, keys.idlers)
         return ChainMating(
             *self.joined(keys),
             height=(one.face_width - two.face_width) / 2 if keys.height is None else keys.height,
@@ -127,18 +139,26 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
             module=one.chain.pitch / math.pi,
             teeth=mesh.teeth,
             mesh=mesh,
+            unit=mesh.pitch,
         )
 
 
 def chain_mesh(
-    sprockets: tuple[Sprocket, Sprocket], links: int | None, distance: float | None, prefix: str = "mate."
+    sprockets: tuple[Sprocket, Sprocket],
+    links: int | None,
+    distance: float | None,
+    idlers: Sequence[IdlerTable] = (),
+    prefix: str = "mate.",
 ) -> ChainMesh:
     """The drive of two sprockets by its links, its centre distance (mm), or both; ``prefix``: of their keys.
+
+    With idlers, which stand where they do, by the distance, and the links if they are told.
 
     Raises
     ------
     ParameterError
-        None of both is given, the tips meet, the chain is too short or much too long; names the key and what works.
+        None of both is given, the tips meet, the chain is too short or much too long, or does not come to an idler;
+        names the key and what works.
     """
     from geometry.gears.chains.drive import ChainMesh, exact_distance, links_for
 
@@ -149,6 +169,8 @@ def chain_mesh(
         raise ParameterError(keys[0], None, "one_of_two_is_missing", other="centre_distance")
     if distance is not None and distance <= least * pitch:
         raise ParameterError(keys[1], distance, "sprockets_meet", limit(least * pitch * (1 + 1e-9), distance))
+    if idlers:
+        return _with_idlers(sprockets, links, distance, idlers, prefix)
     far = exact_distance(teeth, _MOST_LINKS, least)
     if distance is not None and far is not None and distance > far * pitch:
         raise ParameterError(keys[1], distance, "chain_too_short", limit(far * pitch, distance), links=_MOST_LINKS)
@@ -171,3 +193,29 @@ def chain_mesh(
     if links >= needed + _TOO_MANY:
         raise ParameterError(keys[0], links, "chain_too_long", Nearest(needed), links=needed)
     return ChainMesh(sprockets, min(distance, found * pitch), links)
+
+
+def _with_idlers(
+    sprockets: tuple[Sprocket, Sprocket],
+    links: int | None,
+    distance: float | None,
+    idlers: Sequence[IdlerTable],
+    prefix: str,
+) -> ChainMesh:
+    """The drive about idlers: with so many links as go round there, or two more, or one."""
+    from geometry.base.record import replace
+    from geometry.gears.chains.drive import ChainMesh, pitch_radius
+
+    chain = sprockets[0].chain
+    if distance is None:
+        raise ParameterError(f"{prefix}centre_distance", None, "missing_beside_idlers")
+    told = idler_wheels(idlers, prefix, lambda teeth: pitch_radius(teeth) * chain.pitch, chain.roller_diameter / 2)
+    wheels = tuple(replace(w, centre=w.centre / chain.pitch, radius=w.radius / chain.pitch) for w in told)
+    mesh = ChainMesh(sprockets, distance, 0, idlers=wheels)
+    check_idlers(mesh.drive.loop, wheels, idlers, prefix)
+    needed = mesh.drive.longest() - PLACED_MM / chain.pitch
+    fewest = 2 * math.ceil(needed / 2)
+    if links is not None and not needed <= links < fewest + _TOO_MANY:
+        numbers = {"length": round(mesh.drive.longest() * chain.pitch, 3), "links": fewest}
+        raise ParameterError(f"{prefix}number_of_links", links, "chain_does_not_fit", Nearest(fewest), **numbers)
+    return replace(mesh, links=links or fewest)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct
@@ -27,7 +27,12 @@ _AT = Meta(
 )
 _NUMBER_OF_TEETH = Meta(ge=6, le=500, description="of a toothed one", examples=[20])
 _DIAMETER = mm("of a smooth one", above=0, most=2 * MOST_LENGTH, example=12.0)
-_OVER = mm("from its rim to the pitch line of the belt", least=-MOST_LENGTH, most=MOST_LENGTH, example=0.4)
+_OVER = mm(
+    "from the rim of a smooth one to the pitch line of the belt; chains lie on it with their rollers",
+    least=-MOST_LENGTH,
+    most=MOST_LENGTH,
+    example=0.4,
+)
 
 
 class IdlerTable(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -39,8 +44,8 @@ class IdlerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     diameter: Annotated[float, _DIAMETER] | None = None
     pitch_line_offset: Annotated[float, _OVER] = 0.0
 
-    def wheel(self, name: str, pitch_radius: float) -> Wheel:
-        """It by the pitch line about it; ``pitch_radius``: of one tooth, mm.
+    def wheel(self, name: str, pitch_radius: Callable[[int], float], over: float = 0.0) -> Wheel:
+        """It by the pitch line about it, mm; ``pitch_radius``: by teeth, ``over``: of a chain over what is smooth.
 
         Raises
         ------
@@ -52,9 +57,9 @@ class IdlerTable(Struct, forbid_unknown_fields=True, kw_only=True):
         if self.number_of_teeth is not None and self.diameter is not None:
             raise either(f"{name}.diameter", self.diameter, "number_of_teeth", None)
         if self.number_of_teeth is not None:
-            radius = self.number_of_teeth * pitch_radius
+            radius = pitch_radius(self.number_of_teeth)
         elif self.diameter is not None:
-            radius = self.diameter / 2 + self.pitch_line_offset
+            radius = self.diameter / 2 + over + self.pitch_line_offset
         else:
             raise ParameterError(f"{name}.number_of_teeth", None, "one_of_two_is_missing", other="diameter")
         if radius <= 0:
@@ -68,7 +73,14 @@ Idlers = Annotated[
 ]
 
 
-def check_idlers(loop: Loop, idlers: Sequence[Wheel], prefix: str) -> None:
+def idler_wheels(
+    idlers: Sequence[IdlerTable], prefix: str, pitch_radius: Callable[[int], float], over: float = 0.0
+) -> tuple[Wheel, ...]:
+    """The circles of idlers, mm; ``prefix``: of their key."""
+    return tuple(one.wheel(f"{prefix}idlers[{k}]", pitch_radius, over) for k, one in enumerate(idlers, 1))
+
+
+def check_idlers(loop: Loop, wheels: Sequence[Wheel], idlers: Sequence[IdlerTable], prefix: str) -> None:
     """Refuse idlers to which the loop does not come.
 
     Raises
@@ -76,11 +88,10 @@ def check_idlers(loop: Loop, idlers: Sequence[Wheel], prefix: str) -> None:
     ParameterError
         ``idlers[k].at`` of one of them.
     """
-    missed = [loop.wheels[k] for k in loop.missed()]
-    for wheel in missed:
-        if wheel in idlers:
-            name = f"{prefix}idlers[{idlers.index(wheel) + 1}].at"
-            raise ParameterError(name, [wheel.centre.real, wheel.centre.imag], "idler_missed")
+    for wheel in (loop.wheels[k] for k in loop.missed()):
+        if wheel in wheels:
+            k = wheels.index(wheel)
+            raise ParameterError(f"{prefix}idlers[{k + 1}].at", idlers[k].at, "idler_missed")
 
 
 class Wrapped(Toothed, kw_only=True):
@@ -88,15 +99,18 @@ class Wrapped(Toothed, kw_only=True):
 
     rolls: Kind | None = "internal"
     has_contact: bool = False
-    idlers: tuple[Wheel, ...] = ()
+    # mm in a unit of ``loop``
+    unit: float = 1.0
+
+    @property
+    def loop(self) -> Loop:
+        """What is wrapped, the first wheel at the origin, the second on +x."""
+        raise NotImplementedError
 
     def about(self, first: Pose, second: Pose) -> list[tuple[complex, bool]]:
         """Axes of all wheels in the order in which the loop comes to them, and whether they stand outside of it."""
-        way = cmath.rect(1.0, cmath.phase(second[0] - first[0]))
-        along = sorted(self.idlers, key=lambda idler: idler.centre.real)
-        upper, lower = ([w for w in along if (w.centre.imag > 0) == is_upper] for is_upper in (True, False))
-        own = [[(first[0] + way * w.centre, w.outside) for w in side] for side in (upper, lower[::-1])]
-        return [(first[0], False), *own[0], (second[0], False), *own[1]]
+        way = cmath.rect(self.unit, cmath.phase(second[0] - first[0]))
+        return [(first[0] + way * wheel.centre, wheel.outside) for wheel in self.loop.wheels]
 
 
 def gap_away(rotation: float, direction: float, step: float) -> float:

@@ -16,7 +16,7 @@ from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex
 from geometry.gears.belts.pulley import Pulley
-from geometry.plane.loop import Loop, Wheel
+from geometry.plane.loop import Loop, Wheel, about_two
 
 # of the smaller pulley that carry at least, by makers' handbooks
 _LEAST_IN_MESH = 6
@@ -25,27 +25,25 @@ _LOOSE = 0.01
 
 
 class BeltDrive(Record, dict=True):
-    """Two pulleys whose pitch circles have these ``radii``, a ``distance`` apart, and ``idlers`` in their frame.
-
-    What of these stands on the left of the line of centres is in the upper strand.
-    """
+    """Two pulleys whose pitch circles have these ``radii``, a ``distance`` apart, and ``idlers`` in their frame."""
 
     radii: tuple[float, float]
     distance: float
     idlers: tuple[Wheel, ...] = ()
 
     @cached_property
+    def _about(self) -> tuple[Loop, int]:
+        return about_two(self.radii, self.distance, self.idlers)
+
+    @property
     def loop(self) -> Loop:
         """The belt's pitch line, the first pulley first."""
-        along = sorted(self.idlers, key=lambda idler: idler.centre.real)
-        upper, lower = ([w for w in along if (w.centre.imag > 0) == is_upper] for is_upper in (True, False))
-        first, second = (Wheel(complex(x), r) for x, r in zip((0.0, self.distance), self.radii, strict=True))
-        return Loop((first, *upper, second, *reversed(lower)))
+        return self._about[0]
 
     @property
     def second(self) -> int:
         """Which wheel of the loop the second pulley is."""
-        return 1 + sum(idler.centre.imag > 0 for idler in self.idlers)
+        return self._about[1]
 
     @property
     def wraps(self) -> tuple[float, float]:

@@ -10,17 +10,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import lru_cache
+from collections.abc import Callable
+from functools import cached_property, lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 
 from geometry.base.findings import Finding
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
 from geometry.gears.chains.sprocket import Sprocket, sprocket_side
 from geometry.gears.mesh.search import PairContact, flanks_contact, gear_outline
+from geometry.plane.loop import Loop, Wheel, about_two
 
 # rounds until a strand stands on both polygons
 _MOST_ROUNDS = 64
@@ -30,13 +32,15 @@ _MOST_SLACK = 6
 LEAST_WRAP_DEG = 120.0
 # first sprockets' phases over a pitch, at which rollers are held against teeth
 _PHASES = 24
+# mm of slack of a chain that an idler makes taut, and how often it is pressed on until then
+_TAUT, _MOST_PRESSED = 1e-3, 16
 # |gap| up to this part of the roller's radius is contact
 _CONTACT = 1e-8
 _MARGIN = 1e-9
 
 
 class Strand(NamedTuple):
-    """The upper strand where it is taut: seats at its ends, counted counter-clockwise, and its length."""
+    """A strand where it is taut: seats at its ends, counted counter-clockwise, and its length."""
 
     first: int
     second: int
@@ -51,16 +55,20 @@ class Play(NamedTuple):
     whole: int
 
 
-class ChainDrive(Record):
-    """Two sprockets of ``teeth`` a ``distance`` apart."""
+class ChainDrive(Record, dict=True):
+    """Two sprockets of ``teeth`` a ``distance`` apart, and ``idlers`` in their frame, by their pitch circles.
+
+    A smooth roller is as a sprocket, whose seats are where the links come to lie.
+    """
 
     teeth: tuple[int, int]
     distance: float
+    idlers: tuple[Wheel, ...] = ()
 
     @property
     def radii(self) -> tuple[float, float]:
         """Of both pitch circles."""
-        one, two = (0.5 / math.sin(math.pi / z) for z in self.teeth)
+        one, two = (pitch_radius(z) for z in self.teeth)
         return one, two
 
     @property
@@ -68,63 +76,154 @@ class ChainDrive(Record):
         """Angles from seat to seat, rad."""
         return 2 * math.pi / self.teeth[0], 2 * math.pi / self.teeth[1]
 
+    @cached_property
+    def _about(self) -> tuple[Loop, int]:
+        return about_two(self.radii, self.distance, self.idlers)
+
+    @property
+    def loop(self) -> Loop:
+        """About the pitch circles."""
+        return self._about[0]
+
+    @property
+    def second(self) -> int:
+        """Which wheel of the loop the second sprocket is."""
+        return self._about[1]
+
     @property
     def wrap(self) -> float:
-        """Angle of wrap on the smaller sprocket, by the pitch circles, rad."""
-        return math.pi - 2 * math.asin(abs(self.radii[1] - self.radii[0]) / self.distance)
+        """The smaller angle of wrap of both sprockets, rad."""
+        return min(self.wraps)
 
-    def upper(self, first: float, second: float) -> Strand:
-        """The strand above both, at the phases of both: the line that no seat lies beyond."""
-        (r1, r2), (s1, s2) = self.radii, self.steps
-        normal = math.acos((r1 - r2) / self.distance)
-        ends: tuple[int, int] | None = None
+    @property
+    def wraps(self) -> tuple[float, float]:
+        """Angles of wrap on both sprockets, by the pitch circles, rad."""
+        return self.loop.wraps[0], self.loop.wraps[self.second]
+
+    @property
+    def idler_wraps(self) -> tuple[float, ...]:
+        """Angles of wrap on the idlers as they are told, rad."""
+        return tuple(self.loop.wraps[self.loop.wheels.index(idler)] for idler in self.idlers)
+
+    @cached_property
+    def _turns(self) -> tuple[tuple[float, float], ...]:
+        """Polar angles at which circles leave each wheel and come to it, rad, the wrap between both."""
+        found = []
+        for k, (wheel, wrap) in enumerate(zip(self.loop.wheels, self.loop.wraps, strict=True)):
+            turned = -wrap if wheel.outside else wrap
+            if k:
+                arrives = cmath.phase(self.loop.strands[k - 1][1] - wheel.centre)
+                found.append((arrives - turned, arrives))
+            else:
+                leaves = cmath.phase(self.loop.strands[0][0] - wheel.centre)
+                found.append((leaves, leaves + turned))
+        return tuple(found)
+
+    @cached_property
+    def _steps(self) -> tuple[float, ...]:
+        """From seat to seat of each wheel of the loop, rad."""
+        return tuple(2 * math.asin(0.5 / wheel.radius) for wheel in self.loop.wheels)
+
+    def strand(self, wheel: int, first: float, second: float) -> Strand:
+        """The strand behind a wheel, at phases of it and of the next one: the line that no seat lies beyond."""
+        after = (wheel + 1) % len(self.loop.wheels)
+        one, two, (s1, s2) = self.loop.wheels[wheel], self.loop.wheels[after], (self._steps[wheel], self._steps[after])
+        leaves, arrives = self._turns[wheel][0], self._turns[after][1]
+        sides, turn, ends = (one.side / one.radius, two.side / two.radius), 0.0, None
+        own = self.loop.ways[wheel]
         for _ in range(_MOST_ROUNDS):
-            found = round((normal - first) / s1), round((normal - second) / s2)
+            found = round((leaves + turn - first) / s1), round((arrives + turn - second) / s2)
             if found == ends:
                 break
             ends = found
-            way = self.distance + cmath.rect(r2, second + ends[1] * s2) - cmath.rect(r1, first + ends[0] * s1)
-            normal = cmath.phase(way) + math.pi / 2
+            seats = cmath.rect(one.radius, first + ends[0] * s1), cmath.rect(two.radius, second + ends[1] * s2)
+            way = two.centre + seats[1] - one.centre - seats[0]
+            turn = cmath.phase(way / own)
         assert ends is not None
-        return Strand(*ends, abs(way))
+        return Strand(round(sides[0] * ends[0]), round(sides[1] * ends[1]), abs(way))
 
-    def above(self, first: float, second: float) -> float:
-        """Links from seat 0 of the first over the upper strand to seat 0 of the second, where that is taut."""
-        strand = self.upper(first, second)
+    def links(self, wheel: int, first: float, second: float) -> float:
+        """Links from seat 0 of a wheel over the strand behind it to seat 0 of the next one, where that is taut."""
+        strand = self.strand(wheel, first, second)
         return strand.second - strand.first + strand.length
 
+    def side(self, wheels: range, first: float) -> tuple[list[float], list[int]]:
+        """Of one side the phases of its wheels, from its first on, where all strands but the last are whole and taut.
+
+        With them the links from seat 0 to seat 0 of these strands.
+        """
+        phases, counts = [first], list[int]()
+        for wheel in wheels[:-1]:
+            counts.append(round(self.links(wheel, phases[-1], 0.0)))
+            taut = partial(self.links, wheel, phases[-1])
+            phases.append(_where(taut, counts[-1], self._steps[wheel + 1]))
+        return phases, counts
+
+    def above(self, first: float, second: float) -> float:
+        """Links from seat 0 of the first over the upper side to seat 0 of the second, where that is taut."""
+        phases, counts = self.side(range(self.second), first)
+        return sum(counts) + self.links(self.second - 1, phases[-1], second)
+
     def below(self, first: float, second: float) -> float:
-        """Links from seat 0 of the second over the lower strand to seat 0 of the first."""
-        return self.above(2 * math.pi - first, -second)
+        """Links from seat 0 of the second over the lower side to seat 0 of the first."""
+        last = len(self.loop.wheels) - 1
+        phases, counts = self.side(range(self.second, last + 1), second)
+        return sum(counts) + self.links(last, phases[-1], first)
 
     def play(self, first: float, links: int) -> Play:
         """The second's play at a phase of the first near pi."""
-        step = self.steps[1]
-        whole = round(self.above(first, 0.0))
-        # from where the upper strand is taut to where the lower one is
-        upper = bracketed_root(lambda turn: self.above(first, turn) - whole, -step, step).value
-        lower = bracketed_root(
-            lambda turn: self.below(first, turn) - links + whole, -_MOST_SLACK * step, _MOST_SLACK * step
-        ).value
+        # from where the upper side is taut to where the lower one is
+        upper, whole = self.taut(first)
+        lower = _where(partial(self.below, first), links - whole, _MOST_SLACK * self.steps[1])
         return Play((upper + lower) / 2, abs(lower - upper) / 2, whole)
 
+    def taut(self, first: float) -> tuple[float, int]:
+        """Phase of the second where the upper side is taut, rad, and the links of that."""
+        whole = round(self.above(first, 0.0))
+        return _where(partial(self.above, first), whole, self.steps[1]), whole
+
+    def longest(self) -> float:
+        """The taut chain about idlers where it is longest, of so many phases over a pitch of the first."""
+        found = []
+        for share in range(_PHASES):
+            first = math.pi + (share / _PHASES - 0.5) * self.steps[0]
+            second, whole = self.taut(first)
+            found.append(whole + self.below(first, second))
+        return max(found)
+
     def pins(self, first: float, second: float, whole: int, links: int) -> Complex:
-        """Pins (links,), clockwise; ``whole`` links from seat 0 to seat 0 over the upper strand.
+        """Pins (links,), clockwise; ``whole`` links from seat 0 to seat 0 over the upper side.
 
         Strands that are slack hang in arcs outwards.
         """
-        strands = [self.upper(first, second), self.upper(2 * math.pi - first, -second)]
-        counts = [whole + strands[0].first - strands[0].second, links - whole + strands[1].first - strands[1].second]
-        (r1, r2), (s1, s2) = self.radii, self.steps
-        upper, lower = strands
-        # seats by their numbers, which the lower strand counts the other way round
-        on_second = np.arange(upper.second, -lower.second - 1, -1)
-        on_first = np.arange(-lower.first, upper.first - 1, -1)
-        wrapped_2 = self.distance + r2 * np.exp(1j * (second + s2 * on_second))
-        wrapped_1 = r1 * np.exp(1j * (first + s1 * on_first))
-        there = _hanging(wrapped_1[-1], wrapped_2[0], counts[0])
-        back = _hanging(wrapped_2[-1], wrapped_1[0], counts[1])
-        return np.concatenate((wrapped_1, there, wrapped_2, back))
+        upper, counts = self.side(range(self.second), first)
+        lower, others = self.side(range(self.second, len(self.loop.wheels)), second)
+        phases = [*upper, *lower]
+        counts = [*counts, whole - sum(counts), *others, links - whole - sum(others)]
+        size = len(phases)
+        strands = [self.strand(k, phase, phases[(k + 1) % size]) for k, phase in enumerate(phases)]
+        seated = []
+        for wheel, step, phase, before, after in zip(
+            self.loop.wheels, self._steps, phases, [strands[-1], *strands], strands, strict=False
+        ):
+            # seats are counted counter-clockwise round what is inside, the other way round what is outside
+            turns = np.arange(before.second, after.first - 1, -1) * (-step if wheel.outside else step)
+            seated.append(wheel.centre + wheel.radius * np.exp(1j * (phase + turns)))
+        rows = []
+        for k, strand in enumerate(strands):
+            hung = counts[k] + strand.first - strand.second
+            rows += [seated[k], _hanging(seated[k][-1], seated[(k + 1) % size][0], hung)]
+        return np.concatenate(rows)
+
+
+def _where(links: Callable[[float], float], whole: int, most: float) -> float:
+    """The turn, within so much, rad, at which a taut chain has so many links."""
+    return bracketed_root(lambda turn: links(turn) - whole, -most, most).value
+
+
+def pitch_radius(teeth: float) -> float:
+    """Of a sprocket's pitch circle, in pitches."""
+    return 0.5 / math.sin(math.pi / teeth)
 
 
 def _hanging(start: complex, end: complex, count: int) -> Complex:
@@ -196,13 +295,17 @@ def textbook_distance(teeth: tuple[int, int], links: float) -> float:
 
 
 class ChainMesh(Record):
-    """Two sprockets and their chain; ``turn`` (rad) and ``shift`` (mm): how far the second is off its place."""
+    """Two sprockets and their chain, about ``idlers`` too, whose circles are in pitches.
+
+    ``turn`` (rad) and ``shift`` (mm): how far the second is off its place.
+    """
 
     sprockets: tuple[Sprocket, Sprocket]
     centre_distance: float
     links: int
     turn: float = 0.0
     shift: float = 0.0
+    idlers: tuple[Wheel, ...] = ()
 
     @property
     def pitch(self) -> float:
@@ -217,7 +320,7 @@ class ChainMesh(Record):
     @property
     def drive(self) -> ChainDrive:
         """The drive, in pitches."""
-        return ChainDrive(self.teeth, (self.centre_distance + self.shift) / self.pitch)
+        return ChainDrive(self.teeth, (self.centre_distance + self.shift) / self.pitch, self.idlers)
 
     @property
     def least_distance(self) -> float:
@@ -232,11 +335,30 @@ class ChainMesh(Record):
     @property
     def slack(self) -> float:
         """By how much the chain is longer than the taut one, at the phase where that is longest, mm."""
+        if self.idlers:
+            return (self.links - self.drive.longest()) * self.pitch
         lengths = []
         for half in (False, True):
             first, second = symmetric_phases(self.teeth, self.links, half)
             lengths.append(self.drive.above(first, second) + self.drive.below(first, second))
         return (self.links - max(lengths)) * self.pitch
+
+    @property
+    def taut_idler(self) -> complex | None:
+        """Where the last idler makes the chain taut, straight on from where it stands, mm; None: nowhere."""
+        mesh, last = self, self.idlers[-1]
+        for _ in range(_MOST_PRESSED):
+            loop, slack = mesh.drive.loop, mesh.slack
+            if abs(slack) < _TAUT:
+                break
+            # what circles and polygons differ by changes little on the way
+            wheel = loop.wheels.index(last)
+            taut = loop.tightened(wheel, loop.length + slack / self.pitch)
+            if taut is None:
+                return None
+            last = taut.wheels[wheel]
+            mesh = replace(self, idlers=(*self.idlers[:-1], last))
+        return last.centre * self.pitch
 
     def rollers(self, first: float) -> tuple[float, Complex]:
         """Phase of the second, rad, and centres of the rollers, mm, at a phase of the first near pi."""

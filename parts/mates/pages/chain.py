@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated
 
-from msgspec import Meta
+from msgspec import Meta, field
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
@@ -16,7 +16,8 @@ from parts.chains.sprocket import SPROCKET, SprocketSpec, ToothForm, tooth_gap
 from parts.chains.steps import chain_steps, circle_steps
 from parts.keys.base import MOST_LENGTH, mm, size
 from parts.mates.chain import ChainDriveSpec, chain_mesh
-from parts.mates.pages.drive_keys import drive_of_kind
+from parts.mates.pages.drive_keys import drive_of_kind, idler_steps
+from parts.mates.wrapped import Idlers
 from parts.pages.force_steps import both_speeds, driving_torque
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
@@ -54,6 +55,7 @@ class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
     mate_form: Annotated[float, _MATE_FORM] | None = None
     mate_displaced: Annotated[bool, _MATE_DISPLACED] | None = None
     number_of_links: Annotated[int, _NUMBER_OF_LINKS] | None = None
+    idlers: Idlers = field(default_factory=list)
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=458.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
     torque: Annotated[float, size("N*m", _TORQUE, above=0, most=1e9)] | None = None
@@ -62,7 +64,7 @@ class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
 
 _OWN = "tip_diameter", "tooth_form", "form", "displaced"
 
-table_from = drive_of_kind("sprocket", ChainDriveSpec, _OWN, "number_of_links", "centre_distance")
+table_from = drive_of_kind("sprocket", ChainDriveSpec, _OWN, "number_of_links", "centre_distance", "idlers")
 
 
 @calculation(TOPIC, ChainKeys)
@@ -75,7 +77,7 @@ def sheet(keys: ChainKeys) -> Sheet:
         two = checked_sprocket(replace(one, number_of_teeth=teeth, given_tip_diameter=diameter, form=form))
     except ParameterError as refusal:
         raise refusal.renamed(f"mate_{refusal.name}" if refusal.name in _OWN else refusal.name) from refusal
-    mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, "")
+    mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, keys.idlers, "")
     page = Sheet(TOPIC, N_("Chain drive"))
     page.section(N_("Given"))
     page.both("number_of_teeth", mesh.teeth)
@@ -114,6 +116,14 @@ def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:
     square = "(({z2} - {z1}) / (2 * pi))**2"
     if distance is not None:
         page.add("chain_distance", distance, given=True)
+    if mesh.idlers:
+        page.add("number_of_links", mesh.links)
+        page.add("taut_loop_length", mesh.drive.longest() * mesh.pitch)
+        page.add("chain_slack", mesh.slack, "{L} * {p} - {L_0}")
+        page.both("loop_wrap_deg", [math.degrees(wrap) for wrap in mesh.drive.wraps])
+        idler_steps(page, mesh.drive.idler_wraps, mesh.taut_idler)
+        return
+    if distance is not None:
         formula = f"2 * {{a}} / {{p}} + ({{z1}} + {{z2}}) / 2 + {square} * {{p}} / {{a}}"
         page.add("textbook_links", textbook_links(mesh.teeth, distance / mesh.pitch), formula, _SHIGLEY)
     page.add("number_of_links", mesh.links)
@@ -121,7 +131,7 @@ def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:
     free = "({L} - ({z1} + {z2}) / 2)"
     formula = f"{{p}} / 4 * ({free} + sqrt({free}**2 - 8 * {square}))"
     page.add("textbook_chain_distance", belt, formula, _SHIGLEY)
-    taut = chain_mesh(mesh.sprockets, mesh.links, None, "").centre_distance
+    taut = chain_mesh(mesh.sprockets, mesh.links, None, prefix="").centre_distance
     page.add("exact_chain_distance", taut)
     page.add("chain_distance_difference", belt - taut, "{a_t} - {a_0}")
     if distance is None:

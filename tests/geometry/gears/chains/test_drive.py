@@ -16,12 +16,14 @@ from geometry.gears.chains.drive import (
     ChainMesh,
     exact_distance,
     links_for,
+    pitch_radius,
     symmetric_phases,
     textbook_distance,
     textbook_links,
 )
 from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, sprocket_side
 from geometry.plane.distance import Verdict
+from geometry.plane.loop import Wheel
 
 DRIVES = [((17, 38), 100), ((38, 17), 101), ((9, 9), 30), ((9, 9), 31), ((6, 25), 50), ((20, 63), 114), ((8, 60), 91)]
 
@@ -133,3 +135,69 @@ def test_six_teeth_of_the_minimum_form_are_in_the_way() -> None:
     assert [f.code for f in meshed((6, 60), 91).findings()] == ["odd_number_of_links"]
     assert [f.code for f in meshed((11, 100), 112).findings()] == ["small_wrap"]
     assert [f.code for f in meshed((17, 38), 100, share=0.95).findings()] == ["chain_hangs_loose"]
+
+
+def about(*idlers: Wheel, teeth: tuple[int, int] = (17, 38), links: int = 0) -> ChainMesh:
+    """A drive of chain 08B, 18.1 pitches apart, with idlers in pitches, as many links as go round, or more."""
+    mesh = replace(meshed(teeth, 66), idlers=idlers)
+    mesh = replace(mesh, centre_distance=18.1 * mesh.pitch)
+    return replace(mesh, links=links or 2 * math.ceil(mesh.drive.longest() / 2))
+
+
+INSIDE = Wheel(8.0 + 6.3j, pitch_radius(11))
+OUTSIDE = Wheel(9.0 - 3.6j, pitch_radius(11), True)
+SMOOTH = Wheel(8.5 + 3.6j, 1.7, True)
+
+
+def test_taut_chains_about_an_idler_inside_are_hulls_of_three_polygons() -> None:
+    drive = about(INSIDE).drive
+    for first in math.pi + np.linspace(-0.5, 0.5, 9) * drive.steps[0]:
+        second, whole = drive.taut(first)
+        phases, counts = drive.side(range(drive.second), first)
+        assert len(phases) == 2
+        assert drive.links(0, *phases) == pytest.approx(counts[0], rel=1e-12)
+        rows = zip((0j, INSIDE.centre, drive.distance + 0j), (17, 11, 38), (*phases, second), strict=True)
+        pins = [c + cmath.rect(pitch_radius(z), at + 2 * math.pi * k / z) for c, z, at in rows for k in range(z)]
+        hull = MultiPoint([(p.real, p.imag) for p in pins]).convex_hull
+        assert drive.above(first, second) == pytest.approx(whole, abs=1e-12)
+        assert whole + drive.below(first, second) == pytest.approx(hull.length, rel=1e-12)
+        assert hull.length <= drive.longest() * (1 + 1e-4)
+
+
+@pytest.mark.parametrize("idlers", [(INSIDE,), (OUTSIDE,), (INSIDE, OUTSIDE), (SMOOTH,)])
+def test_every_link_about_idlers_is_a_pitch_long_and_seated(idlers: tuple[Wheel, ...]) -> None:
+    """So many links go round at every phase; with two fewer some strand would be longer than its links."""
+    mesh = about(*idlers)
+    assert mesh.drive.loop.missed() == ()
+    assert 0 <= mesh.slack < 2 * mesh.pitch
+    for part in np.linspace(-0.5, 0.5, 7):
+        first = math.pi + part * mesh.drive.steps[0]
+        second, rollers = mesh.rollers(first)
+        assert len(rollers) == mesh.links
+        assert np.abs(rollers - np.roll(rollers, 1)) == pytest.approx(mesh.pitch, rel=1e-11)
+        ways = np.angle(np.roll(rollers, -2) - np.roll(rollers, -1)) - np.angle(np.roll(rollers, -1) - rollers)
+        assert ((ways + math.pi) % (2 * math.pi) - math.pi).sum() == pytest.approx(-2 * math.pi)
+        for at, radius, phase, step in zip(
+            (0.0, mesh.centre_distance), mesh.drive.radii, (first, second), mesh.drive.steps, strict=True
+        ):
+            seated = rollers[np.abs(np.abs(rollers - at) - radius * mesh.pitch) < 1e-9 * mesh.pitch] - at
+            assert len(seated) >= 6
+            assert np.remainder(np.angle(seated) - phase + 1e-6, step) == pytest.approx(1e-6, abs=1e-9)
+    # the same upside down, but for which strand is not whole
+    other = about(*(replace(idler, centre=idler.centre.conjugate()) for idler in idlers))
+    assert other.links == mesh.links
+    assert other.drive.longest() == pytest.approx(mesh.drive.longest(), abs=0.01)
+
+
+def test_the_last_idler_makes_the_chain_taut_where_it_is_told_to() -> None:
+    mesh = about(INSIDE, OUTSIDE)
+    assert mesh.slack > 1.0
+    place = mesh.taut_idler
+    assert place is not None
+    moved = replace(mesh, idlers=(INSIDE, replace(OUTSIDE, centre=place / mesh.pitch)))
+    assert abs(moved.slack) < 1e-3
+    # all strands are taut: pins of the idlers stand on their circles
+    rollers = moved.rollers(math.pi)[1] / mesh.pitch
+    for idler in moved.idlers:
+        assert np.abs(rollers - idler.centre).min() == pytest.approx(idler.radius, abs=0.02)
+    assert mesh.contact().verdict is Verdict.CONTACT
