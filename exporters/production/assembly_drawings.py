@@ -98,14 +98,15 @@ def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: compl
             continue
         pins, ends = (found[0] - centre) / way, list[complex]()
         about = mate.mating.about((mate.first.centre, mate.first.rotation), (mate.second.centre, mate.second.rotation))
-        for axis, is_outside in (((one - centre) / way, is_outside) for one, is_outside in about):
-            apart = np.abs(pins - axis)
-            seated = apart <= apart.min() * (1 + _SEATED)
+        for axis, radius in (((one - centre) / way, radius) for one, radius in about):
+            seated = np.abs(np.abs(pins - axis) - abs(radius)) <= abs(radius) * _SEATED
+            if not seated.any():
+                continue
             # the first of them follows one that is not, clockwise
             start = int(np.flatnonzero(seated & ~np.roll(seated, 1))[0])
             last = (start + int(seated.sum()) - 1) % len(pins)
             if start != last:
-                yield AXIS, arc_between(axis, complex(pins[start]), complex(pins[last]), turns_left=is_outside)
+                yield AXIS, arc_between(axis, complex(pins[start]), complex(pins[last]), turns_left=radius < 0)
             ends += [complex(pins[start]), complex(pins[last])]
         for one, two in zip(ends[1::2], [*ends[2::2], ends[0]], strict=True):
             yield AXIS, Line(one, two)

@@ -215,9 +215,9 @@ class Mating(Joined, kw_only=True):
         """Centres of a chain's rollers in order and their radius, mm, where both stand so; None: it has none."""
         return None
 
-    def about(self, first: Pose, second: Pose) -> list[tuple[complex, bool]]:
-        """Axes of what such a chain goes about, in its order, clockwise, and whether they stand outside of it."""
-        return [(first[0], False), (second[0], False)]
+    def about(self, first: Pose, second: Pose) -> list[tuple[complex, float]]:
+        """Axes and radii, mm, of what such a chain goes about, clockwise in its order, below 0 of what is outside."""
+        return []
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one pitch or turn, the second that far off its exact place; None: nothing moves here."""

@@ -107,10 +107,10 @@ class Wrapped(Toothed, kw_only=True):
         """What is wrapped, the first wheel at the origin, the second on +x."""
         raise NotImplementedError
 
-    def about(self, first: Pose, second: Pose) -> list[tuple[complex, bool]]:
-        """Axes of all wheels in the order in which the loop comes to them, and whether they stand outside of it."""
+    def about(self, first: Pose, second: Pose) -> list[tuple[complex, float]]:
+        """Axes and radii, mm, of all wheels in the order in which the loop comes to them, below 0 of those outside."""
         way = cmath.rect(self.unit, cmath.phase(second[0] - first[0]))
-        return [(first[0] + way * wheel.centre, wheel.outside) for wheel in self.loop.wheels]
+        return [(first[0] + way * wheel.centre, self.unit * wheel.side) for wheel in self.loop.wheels]
 
 
 def gap_away(rotation: float, direction: float, step: float) -> float:
