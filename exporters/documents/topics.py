@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
+from msgspec.structs import fields
 
 from exporters.documents.render import FORMATS, render
 from exporters.formats.whole import beside, check_free
@@ -19,7 +20,7 @@ from parts.base.psv import rows_of
 from parts.base.readback import ReadError
 from parts.base.refusal import SceneError, Typed, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import as_written, plain_numbers, steps_of
+from parts.base.schema import as_written, number_in, plain_numbers, steps_of
 from parts.base.texts import Words, languages
 from parts.base.texts import words as told
 from parts.pages.inputs import GEARS, PLACE, table_of
@@ -157,7 +158,7 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
             or meant(word, scenes) is None
             or word in keys_of_topic(topic)[0].__struct_encode_fields__
         ):
-            raise SceneError(PLACE, word, None, "neither_scene_nor_key")
+            raise SceneError(PLACE, word, None, "neither_scene_nor_key", _value_of_only_key(word, topic))
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
 
@@ -170,6 +171,12 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
             return finish(), spoken
         except SceneError as refusal:
             raise _as_typed(refusal, topic, typed, begun) from refusal
+
+
+def _value_of_only_key(word: str, topic: str) -> Nearest | None:
+    """A number that was typed without its key, where the topic asks for one key alone."""
+    asked, number = [field.name for field in fields(keys_of_topic(topic)[0]) if field.required], number_in(word, "")
+    return None if number is None or len(asked) != 1 else Nearest(f"{asked[0]}={number:.12g}", "meant")
 
 
 def _as_typed(

@@ -163,8 +163,9 @@ def explained(refusal: SceneError) -> Message:
         why = filled(why, standard=standard_told(str(standard)))
     if few := _nearest_few(refusal):
         why = filled(why, known=few)
-    # a value of other letters too is written in Cyrillic on purpose
-    word = refusal.value if isinstance(refusal.value, str) and in_latin(refusal.value).isascii() else ""
+    # a value of other letters too is written in Cyrillic on purpose, and that of a key that is unknown is not to blame
+    told = isinstance(refusal.value, str) and refusal.code != "unknown_key" and in_latin(refusal.value).isascii()
+    word = refusal.value if told else ""
     if letter := look_alike(f"{refusal.key} {word}"):
         why = message("{why}; {remedy}", why=why, remedy=letter)
     if (nearest := refusal.nearest) is not None:

@@ -201,9 +201,9 @@ def _of_type(value: object, types: str, owner: type[Struct], name: str) -> Neare
     return Nearest(f"{name} = {table_line(tables[0])}", "like") if tables else None
 
 
-# a number in quotes, a fraction or a share, with a sign of print, with its unit or with what has slipped in about it
+# a number in quotes, a fraction, a ratio or a share, with a sign of print, its unit or what has slipped in about it
 _WRITTEN = re.compile(
-    r"([\s\"'\u201c\u201d\u00ab\u00bb=(]*)([-+\u2212\u2013]?)(\d+[.,]?\d*|[.,]\d+)(?:/(\d+[.,]?\d*))?\s*(\D*)"
+    r"([\s\"'\u201c\u201d\u00ab\u00bb=(]*)([-+\u2212\u2013]?)(\d+[.,]?\d*|[.,]\d+)(?:\s*[/:]\s*(\d+[.,]?\d*))?\s*(\D*)"
 )
 # several numbers in a row, in brackets of any kind or none
 _ROW = re.compile(r"[\s\[({]*(-?\d+(?:\.\d+)?)(?:(?:\s*[,;]\s*|\s+)(-?\d+(?:\.\d+)?))+[\s\])}]*")
@@ -214,7 +214,7 @@ def _number_meant(value: object, kind: object) -> Nearest | None:
     if isinstance(value, list) and len(value) == 1:
         (value,) = value
     if isinstance(value, str):
-        value = _number_in(value, _unit(kind))
+        value = number_in(value, _unit(kind))
     # of integers there is no end
     if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= sys.float_info.max:
         return None
@@ -222,7 +222,7 @@ def _number_meant(value: object, kind: object) -> Nearest | None:
     return Nearest(number, "meant") if _fits(number, kind) else None
 
 
-def _number_in(text: str, unit: str) -> float | None:
+def number_in(text: str, unit: str) -> float | None:
     """The number that a text has, in the unit of its key; None: none, or of another unit."""
     if unit == "degrees" and (angle := sexagesimal(text)) is not None:
         return angle

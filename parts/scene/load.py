@@ -123,7 +123,9 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
         raise SceneError(repr(address), "", None, "not_a_path", None, why=str(error)) from None
     if folder:
         raise SceneError(address, "", None, "a_folder" if address else "no_scene", None, known=list(built_in))
-    name = path.stem.encode("utf-8", "replace").decode()
+    # a text beside a scene of its name has a folder of its own
+    twin = path.suffix.lower() != ".toml" and path.with_suffix(".toml").is_file()
+    name = (path.name if twin else path.stem).encode("utf-8", "replace").decode()
     if not name.strip(". ") or not name.isprintable():
         raise SceneError(address, "", None, "nameless_file")
     if name.rstrip(". ") != name:

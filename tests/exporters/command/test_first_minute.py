@@ -321,6 +321,16 @@ def test_several_scenes_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert not (tmp_path / "q").exists()
 
 
+def test_a_text_beside_a_scene_of_its_name_has_a_folder_of_its_own(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Alone it has that of its name without the ending."""
+    for name, folder in (("a.txt", "a"), ("a.toml", "a"), ("a.txt", "a.txt")):
+        scene = write_scene(tmp_path / name, {"g": GEAR}, [{"format": "svg"}])
+        assert f"{folder}\n" in said(capsys, "build", scene, "--out", tmp_path / "o").replace("/g.svg", "")
+    assert {p.name for p in (tmp_path / "o").iterdir()} == {"a", "a.txt"}
+
+
 def test_results_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = write_scene(tmp_path / "s.toml", {"g": GEAR}, [{"format": "svg"}])
     report = json.loads(said(capsys, "build", scene, "--out", tmp_path, "--json"))

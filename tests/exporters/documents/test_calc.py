@@ -563,6 +563,11 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (("spur", "practicum_pair", "part=pinon"), "part", "no_such_part", "pinion"),
         (("spur", "no_such_scene.toml"), "", "no_such_scene", None),
         (("spur", "no_such_scene"), "no_such_scene", "neither_scene_nor_key", None),
+        # a ratio as people write it, with its key and without
+        (("ratio", "1:4"), "1:4", "neither_scene_nor_key", "ratio=0.25"),
+        (("ratio", "ratio=3 : 4"), "ratio.ratio", "wrong_type_of", 0.75),
+        # two numbers are asked for there
+        (("spur", "2"), "2", "neither_scene_nor_key", None),
         (("spur", "practicum_pair", "laser_gear"), "laser_gear", "one_scene_only", None),
         (("spur", "module", "=", "2", "number_of_teeth=23"), "module = 2", "write_key_value", None),
         (("spur", "number_of_teeth=23", "module=", "2"), "module= 2", "write_key_value", None),

@@ -502,6 +502,8 @@ def test_cyrillic_letters_that_look_like_latin_ones_are_named(typed: str, told: 
 
 def test_words_in_cyrillic_are_no_slip() -> None:
     assert "Cyrillic" not in str(refusal('[parts.p]\nkind = "шестерня"'))
+    # the key alone is to blame for being unknown, not its value
+    assert "Cyrillic" not in str(refusal('[parts.p]\nkind = "plate"\n"модуль" = "Х"'))
     # a word of a letter that Latin has too
     assert "Cyrillic" not in str(refusal(f'[parts.p]\nkind = "plate"\nlabel = "довга і {"ш" * 60}"'))
 
