@@ -279,24 +279,28 @@ def numbers_text(step: Step, words: Words) -> str:
 
 def pretty(text: str, words: Words) -> str:
     """An expression as printed: products as dots, powers raised, functions as the language writes them."""
-    text = text.replace(" * ", "·").replace(" / ", "/").replace("sqrt(", "√(").replace("cbrt(", "∛(")
+    text = text.replace(" ** ", "**").replace(" * ", "·").replace(" / ", "/")
+    text = text.replace("sqrt(", "√(").replace("cbrt(", "∛(")
     # one argument needs no brackets: cos α; the power of a function stands behind its name: cos² α
     simple = r"([^()\s/·]+|\([^()\s/·]+\))"
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)\*\*([23])", lambda m: f"{m[1]}{_SUPERSCRIPTS[m[3]]} {m[2]}", text)
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)", r"\1 \2", text)
     text = re.sub(r"\*\*([234])", lambda m: _SUPERSCRIPTS[m[1]], text)
     text = re.sub(r"\bpi\b", "π", text)
-    while found := re.search(r"\babs\(", text):
+    while found := re.search(r"\b(abs|ceil|floor)\(", text):
         end, depth = found.end(), 1
         while depth:
             depth += {"(": 1, ")": -1}.get(text[end], 0)
             end += 1
-        text = f"{text[: found.start()]}|{text[found.end() : end - 1]}|{text[end:]}"
+        left, right = _BRACKETS[found[1]]
+        text = f"{text[: found.start()]}{left}{text[found.end() : end - 1]}{right}{text[end:]}"
     return re.sub(r"\b(arctan|tan)\b", lambda m: words.term("function", m[1]), text)
 
 
 # as printed, and decimals shown
 UNITS = {unit: (text, int(decimals)) for unit, text, decimals in rows_of(__file__, "units")}
+# functions that are brackets
+_BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
 # functions that languages write in their own way
 _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))
 

@@ -14,7 +14,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.two_disk import TwoDisk
-from parts.base.texts import N_, filled, message
+from parts.base.texts import N_, filled, message, words
 from parts.gears.worm import page as worm_page
 from parts.keys.base import mm, size
 from parts.mates.pages.contour_marks import checked_picture
@@ -24,7 +24,7 @@ from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import calculation
 from parts.pages.misprints import printed_for
 from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation, sizes, valued
-from parts.pages.page import Section, Sheet
+from parts.pages.page import Section, Sheet, pretty
 
 TOPIC = "power-module"
 _GEAR, _BALLS = "thesis, 2.3", "thesis, 2.4"
@@ -115,9 +115,14 @@ def _sizes(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
     """Every rule by which the assembly ``power_module`` is sized, and its limits; what lacks as notes."""
     rules = of_orientation(RULES, keys.orientation)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
-    rows = ((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason, found[r.name]) for r in rules)
+    rows = ((r.name, ", ".join(map(str, r.positions)), _printed(r.made_of), r.reason, found[r.name]) for r in rules)
     page.table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows)
     _limits(page, keys, found)
+
+
+def _printed(made_of: str) -> str:
+    """A rule as formulas are printed; it has no function that languages write otherwise."""
+    return pretty(made_of, words("en"))
 
 
 def _limits(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
@@ -127,7 +132,9 @@ def _limits(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None
     heads = ((N_("driving size"), ""), (N_("what must be left"), ""), (N_("rule"), ""), (N_("left"), "mm"))
     counts = {"teeth": keys.pair_teeth, "worm_teeth": keys.worm_ratios}
     known: dict[str, float | str] = found | {name: "{:g}, {:g}".format(*pair) for name, pair in counts.items()}
-    rows = [(f"{c.driver} = {known[c.driver]}", c.reason, c.made_of, a) for c, a in zip(limits, left, strict=True)]
+    rows = [
+        (f"{c.driver} = {known[c.driver]}", c.reason, _printed(c.made_of), a) for c, a in zip(limits, left, strict=True)
+    ]
     page.table("limits", N_("Limits of the assembly power_module"), heads, rows)
     for condition, length in zip(limits, left, strict=True):
         if length < 0:

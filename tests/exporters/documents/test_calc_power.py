@@ -529,6 +529,12 @@ def test_hertz_against_forty_digits(sharp: float, flat: float) -> None:
 
 def test_sizes_of_the_module_stand_with_their_rules_on_one_page(module: dict[str, Any]) -> None:
     found = {row["size"]: row["value"] for row in module["sizes"] if row["rule"] and row["reason"]}
+    # as formulas are printed, not as they are typed for Python
+    rules = {row["size"]: row["rule"] for row in module["sizes"]}
+    assert rules["r_56"] == "⌊r_root - 10⌋"
+    assert rules["r_3"] == "⌈max(r_tip, r_56 + 10 + ball/2 + 4)⌉ + 2"
+    assert rules["h_groove"] == "√(r_groove² - (gap_race + r_groove - ball/2)²)"
+    assert not any(re.search(r"\*|\b(ceil|floor|sqrt|pi)\b", rule) for rule in rules.values())
     # the thesis's axes, and half the circle on which the list's 2 x 58 balls run
     assert (found["arm"], found["a_1"], found["a_2"], found["r_large"]) == (72.0, 345.0, 290.0, 280.0)
 
