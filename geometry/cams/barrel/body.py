@@ -110,10 +110,12 @@ class BarrelBody(Record):
             if self.web > 0:
                 found += self._end(self.web, inner, up=True)
         if self.bore is not None:
-            found.append(BoreWall(self.bore, *self._bore_ends()))
+            found.append(BoreWall(self.bore, *self.bore_ends))
         return tuple(found)
 
-    def _bore_ends(self) -> tuple[float, float]:
+    @property
+    def bore_ends(self) -> tuple[float, float]:
+        """The heights of both ends of its bore, mm."""
         below, above = (0.0, 0.0) if self.hub is None else self.hub[1:]
         return -below, (self.length if self.cam.is_groove else self.web) + above
 
@@ -139,7 +141,7 @@ class BarrelBody(Record):
             found += [(hub, -below, 0.0)] if below > 0 else []
             found += [(hub, top, top + above)] if above > 0 else []
         if self.bore is not None:
-            found.append((self.bore, *self._bore_ends()))
+            found.append((self.bore, *self.bore_ends))
         return found
 
 

@@ -17,6 +17,7 @@ from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.curves.line_arc import Line, arc_between
+from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.plate import Edge, moved_edges
@@ -49,13 +50,12 @@ class Notch(Record):
         return self.first != self.last
 
 
-class RatchetWheel(Record, dict=True):
+class RatchetWheel(RoundTeeth, dict=True):
     """Sizes in mm, angles in rad; of ``land`` (along the tip circle) and ``notch_angle`` at least one is given.
 
     ``ccw``: whether counter-clockwise is the free sense. ``outer_radius``: of an internal wheel.
     """
 
-    number_of_teeth: int
     tip_radius: float
     depth: float
     front_angle: float
@@ -71,11 +71,6 @@ class RatchetWheel(Record, dict=True):
     def side(self) -> int:
         """1 where the teeth stand outwards, -1 of an internal wheel."""
         return -1 if self.internal else 1
-
-    @property
-    def pitch_angle(self) -> float:
-        """2 pi / z, rad."""
-        return 2 * math.pi / self.number_of_teeth
 
     @property
     def root_radius(self) -> float:

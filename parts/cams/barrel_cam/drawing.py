@@ -43,21 +43,15 @@ def part_drawing(subject: Subject) -> PartDrawing:
     section = _section(body, holes, subject)
     more = directions(holes, subject, "zero_development")
     told = body.length if body.cam.is_groove else _wall(body.cam, LOWER, body.cam.outer, math.pi)
-    views = with_bore((section,), holes.bore, _ends(body)[1], subject, _TURNED)
+    views = with_bore((section,), holes.bore, body.bore_ends[1], subject, _TURNED)
     return PartDrawing((*views, _development(subject, told)), requirements(subject, *more))
-
-
-def _ends(body: BarrelBody) -> tuple[float, float]:
-    """Both ends of the bore, mm."""
-    under, over = (0.0, 0.0) if body.hub is None else body.hub[1:]
-    return -under, (body.length if body.cam.is_groove else body.web) + over
 
 
 def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
     """The axial section; of a groove the edges behind it are left to the development."""
     strokes: list[Stroke] = []
     hatched, sizes = list[Loop](), list[Size]()
-    low, high = _ends(body)
+    low, high = body.bore_ends
     walls, bore_edges = bore_cut(holes.bore, low, high, _TURNED)
     spline = spline_cut(holes.bore, low, high)
     for way, polar, bore in zip((1, -1), (0.0, math.pi), walls, strict=True):
@@ -112,7 +106,7 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
 
 def _outline(body: BarrelBody, bore: float, polar: float | None = None) -> Iterator[complex]:
     """Half of the section, z + ir; with the walls as they pass through the half plane at a polar angle."""
-    cam, (low, high) = body.cam, _ends(body)
+    cam, (low, high) = body.cam, body.bore_ends
     outer, inner, web, length = cam.outer, cam.inner, body.web, body.length
     hub = bore if body.hub is None else body.hub[0]
     if cam.is_groove or web > 0:

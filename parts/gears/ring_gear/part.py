@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.gears.quantities import circles, tooth_quantities
+from parts.gears.toothed_kind import ToothedKind
 from parts.keys.base import degrees, either, in_modules, mm
 from parts.keys.cutter import CutterTable, cutter_of
 from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.ring import RingGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
-    from geometry.solids.sketch import Sketch
 
 # modules outside the root circle where no rim was asked for
 _RIM = 2.5
@@ -179,12 +179,10 @@ def _ring_of(keys: RingGearSpec) -> RingGear:
     )
 
 
-class RingGearKind(Kind[RingGearSpec, "RingGear"]):
+class RingGearKind(ToothedKind[RingGearSpec, "RingGear"]):
     """An internal gear: a toothed hole in a round rim."""
 
     name, keys = "ring_gear", RingGearSpec
-    drawing = "parts.gears.drawings"
-    data_table = "parts.gears.data_tables"
 
     def thing(self, keys: RingGearSpec, others: Others) -> RingGear:
         """The transverse section of the ring."""
@@ -204,15 +202,6 @@ class RingGearKind(Kind[RingGearSpec, "RingGear"]):
         region, twist = self.section(keys, thing, offset).region, helix_of(keys).twist(thing.reference_radius)
         body = plate(region, 0.0, keys.face_width, twist, toothed=region.holes[0])
         return engraved(body, _marks(keys, thing), keys.face_width)
-
-    def sketch(self, keys: RingGearSpec, thing: RingGear) -> Sketch:
-        """The ring with circles for its teeth, those of a sector as they are."""
-        from geometry.solids.sketch import Teeth, sketch_of_body
-
-        if thing.sector is not None:
-            return sketch_of_body(self.solid(keys, thing, 0.0))
-        teeth = Teeth(thing.tip_radius, thing.root_radius, thing.reference_radius)
-        return sketch_of_body(self.solid(keys, thing, 0.0), teeth)
 
     def report(self, keys: RingGearSpec, thing: RingGear) -> Report:
         """Diameters and thicknesses, the cutter, what is poor."""

@@ -27,10 +27,11 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
 from parts.gears.quantities import circles, tooth_quantities
+from parts.gears.toothed_kind import ToothedKind
 from parts.keys.base import BoreDiameter, in_modules, mm
 from parts.keys.cutter import CutterTable, PressureAngle, RackName, cutter_of
 from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
@@ -50,7 +51,6 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
-    from geometry.solids.sketch import Sketch
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
@@ -169,12 +169,10 @@ def bare_section(keys: SpurGearSpec) -> SpurGear:
     return transverse_gear(gear_of(keys), helix_of(keys).angle)
 
 
-class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
+class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
     """An external gear; a mate may have shortened its tip."""
 
     name, keys = "spur_gear", SpurGearSpec
-    drawing = "parts.gears.drawings"
-    data_table = "parts.gears.data_tables"
     sheet_shown = "generating", N_('; purpose = "generating": device TMM-42')
 
     def thing(self, keys: SpurGearSpec, others: Others) -> SpurGear:
@@ -200,15 +198,6 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
         sections = wheel_sections(lru_cache(maxsize=8)(outline), thing.core_radius, thing.holes)
         body = wheel_body(shape, replace(sections, core=_about_axis(thing)), offset)
         return engraved(body, _marks(keys, thing), keys.face_width)
-
-    def sketch(self, keys: SpurGearSpec, thing: SpurGear) -> Sketch:
-        """The wheel with circles for its teeth, those of a sector as they are."""
-        from geometry.solids.sketch import Teeth, sketch_of_body
-
-        if thing.sector is not None:
-            return sketch_of_body(self.solid(keys, thing, 0.0))
-        teeth = Teeth(thing.tip_radius, thing.root_radius, thing.reference_radius)
-        return sketch_of_body(self.solid(keys, thing, 0.0), teeth)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""

@@ -282,6 +282,8 @@ def test_a_film_has_many_values_only_where_they_are_needed(form: str, tmp_path: 
 TIMES = {
     "late": (r'keyTimes="0;', 'keyTimes="0.001;', "do not go through its loop"),
     "back": (r'(keyTimes="0;[\d.]+;)[\d.]+', r"\g<1>0.0000001", "do not go through its loop"),
+    "too soon": (r'(keyTimes="0;[^"]*);1"', r'\g<1>;0.9999"', "do not go through its loop"),
+    "twice": (r'(keyTimes="0;)([\d.]+;)[\d.]+;', r"\g<1>\g<2>\g<2>", "do not go through its loop"),
     "one less": (r'(keyTimes="0;)[\d.]+;', r"\g<1>", "do not go through its loop"),
     "another": (r'(keyTimes="(?:[\d.]+;){9})[\d.]+;(0\.\d*?)(\d\d?);', r"\g<1>\g<2>;\g<2>\g<3>;", "off its place"),
     "no number": (r'(keyTimes="0;)[\d.]+', r"\g<1>x", "a time of a motion is no number"),

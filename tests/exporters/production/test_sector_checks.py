@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from shapely.affinity import rotate, translate
 
-from tests.exporters.making import table
+from tests.exporters.making import run, table
 from tests.exporters.production.test_checks_found import checked, made
 from tests.geometry.gears.teeth.test_sector import polygon
 
@@ -64,7 +64,8 @@ def test_a_drive_that_leaves_the_mesh_is_told_by_how_much(
     low, high = sector["mesh_from_deg"], sector["mesh_to_deg"]
     # turned the other way it leaves with its other flanks: the widest of both counts
     last = max(high, -low - 2 * _middle(first))
-    for beyond in (-1.0, 2.5):
+    # two turns too far is no less
+    for beyond in (-1.0, 2.5, 722.5):
         turned = (last + beyond) / 360
         code, mate = found_of({**base, "drives": [{"instance": "a", "turns": turned}]}, tmp_path, capsys)
         told = codes(mate).get("sector_leaves_mesh")
@@ -161,6 +162,9 @@ def test_a_first_tooth_that_jams_is_told(
     assert code == int(jams)
     assert (mate["sectors"][0]["entry_margin"] < 0) is jams
     assert ("conditions" in mate) is jams
+    # how it enters is said of what does
+    assert run("check", tmp_path / "s.toml") == int(jams)
+    assert ("its first tooth enters a standing b" in capsys.readouterr().out) is not jams
     if not jams:
         return
     (found,) = mate["conditions"]
