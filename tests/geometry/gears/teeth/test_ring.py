@@ -252,6 +252,17 @@ def test_offsets_that_no_ring_survives_name_one_that_works(gear: RingGear, offse
             ring_region(gear, refused.nearest_offset * 1.001)
 
 
+def test_a_thin_rim_is_taken_from_both_sides() -> None:
+    """One of 1.2 mm about the roots, whose circle is found on the outline, is gone at 0.6 mm."""
+    gear = ring(40, PinionCutter(2.0, 25, ALPHA))
+    root = ring_region(gear).region.holes[0].reach()
+    thin = replace(gear, outer_diameter=2 * (root + 1.2))
+    assert ring_region(thin, -0.59).region.outer.reach() == pytest.approx(root + 0.61)
+    refused = brute.refusal(lambda: ring_region(thin, -0.61))
+    assert isinstance(refused, OffsetError)
+    assert refused.nearest_offset == pytest.approx(-0.6, abs=1e-3)
+
+
 REFUSED: dict[str, RingGear] = {
     "cutter too large": ring(60, PinionCutter(2.0, 55, ALPHA)),
     "cutter as large as the ring": ring(60, PinionCutter(2.0, 60, ALPHA)),
