@@ -22,6 +22,7 @@ from tests.exporters.documents import (
     test_calc_pairs,
     test_calc_planetary,
     test_calc_round_pins,
+    test_calc_strength,
     test_calc_train,
 )
 from tests.exporters.documents.test_calc import sheet_for
@@ -37,7 +38,12 @@ def pages() -> dict[str, tuple[str, ...]]:
     """The words of ``calc`` whose pages are listed, by themselves in one line."""
     cams = [test_calc_cam_kinds.GROOVE, test_calc_cam_kinds.SWINGING_BARREL, test_calc_cam_kinds.SWINGING_WEDGE]
     cams += [*test_calc_cam_linkage.WORDS.values(), *((word, *rest) for word, *rest in map(str.split, _CAM_SCENES))]
-    found = [*test_calc.SHEETS, *test_calc_round_pins.SHEETS, *(tuple(row.split()) for row in test_calc_pairs.SHEETS)]
+    found = [
+        *test_calc.SHEETS,
+        *test_calc_round_pins.SHEETS,
+        *test_calc_strength.SHEETS,
+        *(tuple(row.split()) for row in test_calc_pairs.SHEETS),
+    ]
     found += [("planetary", *row) for row in test_calc_planetary.SHEETS]
     found += [("train", *row) for row in (test_calc_train.LOADED, test_calc_train.FERGUSON)]
     rare = [tuple(line.split("; ")) for line in RARE.read_text(encoding="utf-8").splitlines()]

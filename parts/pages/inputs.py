@@ -115,6 +115,12 @@ def refusal(topic: str, error: ParameterError, owner: str = "", keys: Struct | N
     return placed(PLACE, ".".join(filter(None, (topic, owner))), error, unit)
 
 
+def of_topic(error: SceneError, topic: str) -> SceneError:
+    """A refusal of another topic's key told as that of one which has the same keys."""
+    key = f"{topic}.{error.key.partition('.')[2]}"
+    return error if error.key == key else error.at(key)
+
+
 def calculation(topic: str, kind: type[K]) -> Callable[[Callable[[K], P]], Callable[[dict[str, Any]], P]]:
     """A page made, or begun, of the keys of a topic as one made of a table, which is checked; refusals name the key
     as typed.

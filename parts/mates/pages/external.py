@@ -53,7 +53,7 @@ from parts.pages.contact_steps import (
     sliding_steps,
 )
 from parts.pages.force_steps import DrivenKeys, force_steps
-from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
+from parts.pages.inputs import SceneKeys, checked, given, keys_of, of_topic, refusal
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
 from parts.pages.roll_steps import pair_rolls
@@ -65,6 +65,9 @@ OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"), ("kind", "
 _SHIGLEY = "Shigley, 13-7"
 _SHIFTS = Meta(description="profile shifts by a table: Kudryavtsev's of the practicum, or least wear of the guidelines")
 _CIRCUMFERENTIAL_BACKLASH = mm("wanted backlash, arc on the working circle", least=0, most=1000)
+
+
+Pairs = dict[str, tuple[type[Struct], Callable[[dict[str, Any]], Sheet]]]
 
 
 class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
@@ -99,8 +102,13 @@ class Asked(Record):
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a mate of a scene, changed by those of the command line."""
+    return table_of_pair(scene, source, table, PAIRS)
+
+
+def table_of_pair(scene: SceneKeys, source: str, table: dict[str, Any], known_pairs: Pairs) -> dict[str, Any]:
+    """The keys of a mate of a scene that is of a known kind, changed by those of ``table``."""
     index = table.pop("mate", 1)
-    pairs = [m for m in scene.mates if m.__struct_config__.tag in PAIRS]
+    pairs = [m for m in scene.mates if m.__struct_config__.tag in known_pairs]
     if not pairs:
         raise SceneError(source, "mates", None, "no_gear_pair")
     if not isinstance(index, int) or not 1 <= index <= len(pairs):
@@ -112,12 +120,12 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     if isinstance(specs[0], RingGearSpec):
         # a pinion is the first of its sheet
         specs.reverse()
-    built = {"shortened_tips": True} if "shortened_tips" in keys_of(PAIRS[kind][0]) else {}
+    built = {"shortened_tips": True} if "shortened_tips" in keys_of(known_pairs[kind][0]) else {}
     known = {"kind": kind, **built, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
     wishes = {
         key: getattr(mate, key, None) for key in ("working_centre_distance", "normal_backlash", "shaft_angle_deg")
     }
-    return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, PAIRS[kind][0])
+    return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, known_pairs[kind][0])
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
@@ -128,23 +136,28 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 def external_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of an external pair."""
-    table = pair_table(table, PairKeys, TOPIC)
-    keys: PairKeys = checked(table, PairKeys, TOPIC)
+    return external_page(table, PairKeys, TOPIC, _page)
+
+
+def external_page(table: dict[str, Any], kind: type[PairKeys], topic: str, page_of: Callable[[Asked], Sheet]) -> Sheet:
+    """A page about the external pair that the keys of a topic, of a ``kind``, ask for."""
+    table = pair_table(table, kind, topic)
+    keys: PairKeys = checked(table, kind, topic)
     try:
         found = _tabled(keys, table)
     except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+        raise refusal(topic, error, keys=keys) from error
     if found is not None:
         for name, shift in zip(GEARS, (found.first, found.second), strict=True):
             table[name] = table[name] | {"profile_shift_coefficient": shift}
-        keys = checked(table, PairKeys, TOPIC)
+        keys = checked(table, kind, topic)
     shifts_given = tuple("profile_shift_coefficient" in table[name] for name in GEARS)
 
     def made(changed: PairKeys) -> ExternalPair:
         return asked_pair(changed, shifts_given).pair
 
     try:
-        page = _page(asked_pair(keys, shifts_given))
+        page = page_of(asked_pair(keys, shifts_given))
         if found is not None:
             page.note("shifts by table {table}", table=found.table)
         if found is not None and found.tip_shortening is not None and keys.tip_shortening_coefficient is None:
@@ -156,11 +169,11 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
             page.note("the table prints {shifts} for this pair: a misprint", shifts=printed)
         return page
     except ParameterError as error:
-        owner = "" if error.name.partition(".")[0] in keys_of(PairKeys) else "second"
+        owner = "" if error.name.partition(".")[0] in keys_of(kind) else "second"
         told = in_normal_terms(in_keys(error), keys.second, keys.first)
-        raise wish_refused(TOPIC, keys, refusal(TOPIC, told, owner, keys), made) from error
+        raise wish_refused(topic, keys, refusal(topic, told, owner, keys), made) from error
     except SceneError as error:
-        raise wish_refused(TOPIC, keys, error, made) from error
+        raise wish_refused(topic, keys, of_topic(error, topic), made) from error
 
 
 def _tabled(keys: PairKeys, table: Mapping[str, Any]) -> TableShift | None:
@@ -444,7 +457,7 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
 
 
 # the kinds of pairs that have a sheet: their keys, and what makes it of a table of them
-PAIRS: dict[str, tuple[type[Struct], Callable[[dict[str, Any]], Sheet]]] = {
+PAIRS: Pairs = {
     "external_gear_pair": (PairKeys, external_sheet),
     "internal_gear_pair": (InternalKeys, internal_sheet),
     "rack_pair": (RackKeys, rack_sheet),

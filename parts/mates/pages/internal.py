@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Annotated, Any
 
 import msgspec
@@ -38,7 +39,7 @@ from parts.pages.contact_steps import (
     sliding_steps,
 )
 from parts.pages.force_steps import DrivenKeys, force_steps
-from parts.pages.inputs import checked, keys_of, refusal
+from parts.pages.inputs import checked, keys_of, of_topic, refusal
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
 from parts.pages.roll_steps import pair_rolls
@@ -73,8 +74,18 @@ class RackKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
 
 def internal_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a pinion in a ring."""
-    table = pair_table(table, InternalKeys, TOPIC)
-    keys: InternalKeys = checked(table, InternalKeys, TOPIC)
+    return internal_page(table, InternalKeys, TOPIC, _internal_page)
+
+
+def internal_page(
+    table: dict[str, Any],
+    kind: type[InternalKeys],
+    topic: str,
+    page_of: Callable[[InternalPair, InternalKeys, Helical], Sheet],
+) -> Sheet:
+    """A page about the pinion in a ring that the keys of a topic, of a ``kind``, ask for."""
+    table = pair_table(table, kind, topic)
+    keys: InternalKeys = checked(table, kind, topic)
     given_shift = "profile_shift_coefficient" in table["second"]
 
     def made(changed: InternalKeys) -> InternalPair:
@@ -82,11 +93,11 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
 
     try:
         pair = made(keys)
-        page = _internal_page(pair, keys, _helical(keys))
+        page = page_of(pair, keys, _helical(keys))
     except ParameterError as error:
-        raise wish_refused(TOPIC, keys, _refused(error, keys), made) from error
+        raise wish_refused(topic, keys, _refused(error, keys, topic), made) from error
     except SceneError as error:
-        raise wish_refused(TOPIC, keys, error, made) from error
+        raise wish_refused(topic, keys, of_topic(error, topic), made) from error
     page.notes += [finding_of(1, f) for f in rack_findings(keys.first, pair.pinion)]
     return page
 
@@ -140,11 +151,11 @@ def _pinion(keys: InternalKeys | RackKeys) -> End[SpurGear]:
         raise refusal(TOPIC, error, "first", keys) from error
 
 
-def _refused(error: ParameterError, keys: Struct) -> SceneError:
+def _refused(error: ParameterError, keys: Struct, topic: str = TOPIC) -> SceneError:
     """A refusal under the key that was typed: those of the pair stand alone, others are the second's."""
     name = error.name.removeprefix("mate.")
     owner = "" if name.partition(".")[0] in keys_of(type(keys)) else "second"
-    return refusal(TOPIC, error.renamed(name), owner, keys)
+    return refusal(topic, error.renamed(name), owner, keys)
 
 
 def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:

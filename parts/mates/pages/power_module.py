@@ -13,6 +13,8 @@ from geometry.base import hertz
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
+from geometry.gears.strength.gost21354 import ELASTICITY_FACTOR, contact_stress
+from geometry.gears.strength.iso6336 import contact_ratio_factor, zone_factor
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.texts import N_, filled, message, words
 from parts.gears.worm import page as worm_page
@@ -186,12 +188,17 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     page.add("helix_angle_deg", 0.0)
     page.add("overlap_ratio", 0.0, "{b} * sin({beta}) / (pi * {m})", _GEAR)
     page.told(
-        elasticity_factor=190.0, zone_factor=2.49, overlap_factor=0.84, outer_load_factor=1.0, pair_speed_factor=1.01
+        elasticity_factor=ELASTICITY_FACTOR,
+        zone_factor=2.49,
+        overlap_factor=0.84,
+        outer_load_factor=1.0,
+        pair_speed_factor=1.01,
     )
-    zone = math.sqrt(4 / math.sin(math.radians(40)))
-    page.add("exact_zone_factor", zone, "sqrt(4 / sin(2 * 20 * pi / 180))")
-    page.add("exact_overlap_factor", math.sqrt((4 - rough) / 3), "sqrt((4 - {eps_r}) / 3)")
-    stress = 190 * 2.49 * 0.84 * math.sqrt(along * 1.01 * 1.05 / (keys.face_width * diameter) * (ratio - 1) / ratio)
+    alpha = math.radians(20)
+    page.add("exact_zone_factor", zone_factor(alpha, alpha, 0.0), "sqrt(4 / sin(2 * 20 * pi / 180))")
+    page.add("exact_overlap_factor", contact_ratio_factor(rough, 0.0), "sqrt((4 - {eps_r}) / 3)")
+    factors, load = ELASTICITY_FACTOR * 2.49 * 0.84, along * 1.01 * 1.05
+    stress = contact_stress(factors, load, keys.face_width, diameter, ratio, -1)
     root = "sqrt({F_t} * {K_A} * {K_Hv} * {K_Fb} / ({b} * {d_11}) * ({u} - 1) / {u})"
     page.add("pair_contact_stress", stress, "{Z_E} * {Z_H} * {Z_eps} * " + root, _GEAR)
     page.told(

@@ -335,7 +335,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
         "cos": math.cos, "sin": math.sin, "tan": math.tan, "arccos": math.acos, "arctan": math.atan,
         "arcsin": math.asin,
         "sqrt": math.sqrt, "cbrt": math.cbrt, "abs": abs, "pi": math.pi, "inv": involute_function,
-        "arcinv": inverse_involute,
+        "arcinv": inverse_involute, "ln": math.log, "lg": math.log10,
     }  # fmt: skip
 
     def value(match: re.Match[str]) -> str:

@@ -1,0 +1,228 @@
+"""``higherpair calc strength``: load capacity of an involute pair, by ISO 6336 or by GOST 21354-87.
+
+The critical section of the root lies on the exact fillet that the cutter leaves; where that is a rack, the standard's
+own closed form stands beside it as the formula.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import Any
+
+from geometry.base.errors import ParameterError
+from geometry.base.findings import Finding
+from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.strength import iso6336
+from parts.base.texts import N_
+from parts.gears.spur_gear.page import cutter_data, given_data, sector_data, shift_data, thinning_data
+from parts.mates.pages.external import Asked, Pairs, external_page, table_of_pair
+from parts.mates.pages.internal import InternalKeys, internal_page
+from parts.mates.pages.pair_keys import kind_of_pair
+from parts.mates.pages.strength_flank import flank_allowed, flank_stress
+from parts.mates.pages.strength_gost import gost_steps
+from parts.mates.pages.strength_keys import LoadedInternalKeys, LoadedPairKeys, Rated
+from parts.mates.pages.strength_root import root_allowed, root_stress
+from parts.pages.contact_steps import ISO, Helical, face_steps, heading, meshing_steps
+from parts.pages.force_steps import asked_torque, torque_steps
+from parts.pages.inputs import SceneKeys
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_of
+
+TOPIC = "strength"
+OTHER_KINDS = (("second.kind", "ring_gear"),)
+_PART_1 = "ISO 6336-1"
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a mate of a scene, changed by those of the command line."""
+    return table_of_pair(scene, source, table, PAIRS)
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The calculation of a pair, by its kind."""
+    kind, table = kind_of_pair(table, TOPIC, list(PAIRS))
+    return PAIRS[kind][1](table)
+
+
+def _external(asked: Asked) -> Sheet:
+    keys: Any = asked.keys
+    page = Sheet(TOPIC, _TITLES[keys.method])
+    page.section("Given")
+    for index, (normal, gear) in enumerate(zip(asked.normal, asked.pair.gears, strict=True), 1):
+        given_data(page, normal, gear, asked.helical.angle, index)
+    total = "profile_shift_sum" if asked.shifts_follow else "tight_profile_shift_sum"
+    return _rated(page, asked.pair, keys, asked.helical, "" if keys.working_centre_distance is None else total)
+
+
+def _internal(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:
+    loaded: Any = keys
+    page, ring = Sheet(TOPIC, _TITLES[loaded.method]), pair.ring
+    page.section("Given")
+    given_data(page, helical.normal, pair.pinion, helical.angle, 1)
+    page.add("number_of_teeth", ring.number_of_teeth, gear=2)
+    sector_data(page, ring, 2)
+    shift_data(page, ring.profile_shift_coefficient / math.cos(helical.angle), helical.angle, 2)
+    if ring.cutter is not None:
+        cutter_data(page, ring.cutter, 2, 1 / math.cos(helical.angle))
+    thinning_data(page, ring, helical.angle, "+", 2)
+    wanted = "" if keys.working_centre_distance is None else "profile_shift_difference"
+    return _rated(page, pair, loaded, helical, wanted)
+
+
+def _rated(page: Sheet, pair: ExternalPair | InternalPair, keys: Any, helical: Helical, wanted: str) -> Sheet:
+    """All that follows after the data of both gears."""
+    rated = Rated(pair, keys, helical, min(keys.first.face_width, keys.second.face_width))
+    if pair.effective_contact_ratio <= 0:
+        raise ParameterError("working_centre_distance", pair.working_centre_distance, "flanks_do_not_meet")
+    if not rated.helix:
+        page.add("face_width", rated.width)
+    _mesh(page, rated, wanted)
+    torque = asked_torque(keys)
+    if torque is not None:
+        _load(page, rated, torque)
+    if keys.method == "GOST 21354":
+        gost_steps(page, rated, loaded=torque is not None)
+    else:
+        if torque is not None:
+            _load_factors(page, rated)
+        flank_stress(page, rated, loaded=torque is not None)
+        flank_allowed(page, rated, loaded=torque is not None)
+        root_stress(page, rated, loaded=torque is not None)
+        root_allowed(page, rated, loaded=torque is not None)
+    if torque is not None:
+        _torques(page, rated, torque)
+    return page
+
+
+def _mesh(page: Sheet, rated: Rated, wanted: str) -> None:
+    """Circles, angles and contact ratios that the factors take."""
+    pair, helical = rated.pair, rated.helical
+    heading(page, helical, N_("Meshing"))
+    meshing_steps(page, pair, helical, wanted)
+    gears: tuple[Any, Any] = pair.gears
+    page.both("reference_radius", [g.reference_radius for g in gears], "{m} * {z#} / 2", ISO)
+    page.both("base_radius", [g.base_radius for g in gears], "{r#} * cos({alpha})", ISO)
+    tips = rated.active_tips
+    page.both("active_tip_diameter", [2 * r for r in tips], "", ISO)
+    angles = [math.degrees(math.acos(g.base_radius / r)) for g, r in zip(gears, tips, strict=True)]
+    page.both("active_tip_angle_deg", angles, "arccos(2 * {r_b#} / {d_Na#})", ISO)
+    signs = ("+", "- ({z1} + {z2})") if pair.sign > 0 else ("-", "+ ({z2} - {z1})")
+    formula = "({{z1}} * tan({{alpha_Na1}}) {} {{z2}} * tan({{alpha_Na2}}) {} * tan({{alpha_w}})) / (2 * pi)"
+    page.add("contact_ratio", pair.effective_contact_ratio, formula.format(*signs), ISO)
+    if rated.helix:
+        face_steps(page, helical.face)
+    low, high = iso6336.CONTACT_RATIOS
+    if not low <= pair.effective_contact_ratio <= high:
+        limit = low if pair.effective_contact_ratio < low else high
+        page.notes.append(finding_of(0, Finding("strength_contact_ratio", pair.effective_contact_ratio, limit)))
+    if rated.helix > iso6336.MOST_HELIX + 1e-12:
+        numbers = math.degrees(rated.helix), math.degrees(iso6336.MOST_HELIX)
+        page.notes.append(finding_of(0, Finding("strength_helix", *numbers)))
+
+
+def _load(page: Sheet, rated: Rated, torque: float) -> None:
+    """Torques, the nominal force on the reference circles and their speed."""
+    pair, keys = rated.pair, rated.keys
+    page.section("Load")
+    if keys.speed_rpm is not None:
+        page.add("gear_speed", keys.speed_rpm, gear=1, given=True)
+    torque_steps(page, keys, torque, "gear_torque", 1)
+    page.add("gear_torque", torque * pair.gear_ratio, "{T1} * {u}", gear=2)
+    page.add("reference_force", rated.force(torque), "1000 * {T1} / {r1}", f"{_PART_1}, 4")
+    if rated.speed is not None:
+        page.add("reference_speed", rated.speed, "pi * {n1} * {r1} / 30000", f"{_PART_1}, 4")
+
+
+def _load_factors(page: Sheet, rated: Rated) -> None:
+    """K_A to K_Falpha: given, or by the simplest of the standard's own ways."""
+    keys = rated.keys
+    page.section("Factors of load")
+    page.add("outer_load_factor", keys.application_factor, given=True)
+    _dynamic_factor(page, rated)
+    page.add("face_load_factor", keys.face_load_factor, given=True)
+    if keys.root_face_load_factor is None:
+        heights = [abs(g.tip_radius - g.root_radius) for g in rated.gears]
+        share = max(min(rated.width / height for height in heights), 3.0)
+        page.add("width_by_height", share, "", f"{_PART_1}, 7")
+        exponent = iso6336.face_exponent(rated.width, heights)
+        page.add("face_exponent", exponent, "{b_h}**2 / (1 + {b_h} + {b_h}**2)", f"{_PART_1}, 7")
+        page.add("root_face_load_factor", keys.face_load_factor**exponent, "{K_Hb}**({N_F})", f"{_PART_1}, 7")
+    else:
+        page.add("root_face_load_factor", keys.root_face_load_factor, given=True)
+    page.add("transverse_load_factor", keys.transverse_load_factor, given=True)
+    own = keys.root_transverse_load_factor
+    if own is None:
+        page.add("root_transverse_load_factor", keys.transverse_load_factor, "{K_Ha}", f"{_PART_1}, 8")
+    else:
+        page.add("root_transverse_load_factor", own, given=True)
+
+
+def _dynamic_factor(page: Sheet, rated: Rated) -> None:
+    """K_v: given, by method C of grade and speed, else 1."""
+    keys, grade, speed = rated.keys, rated.keys.accuracy_grade, rated.speed
+    if keys.dynamic_factor is not None or grade is None or speed is None:
+        page.add("speed_factor", keys.dynamic_factor or 1.0, given=True)
+        return
+    source, helical, overlap = f"{_PART_1}, 6", rated.helix > 0, rated.overlap
+    parameter = iso6336.speed_parameter(speed, rated.gears[0].number_of_teeth, rated.pair.gear_ratio)
+    page.add("accuracy_grade", grade, given=True)
+    page.add("speed_parameter", parameter, "{v} * {z1} / 100 * {u} / sqrt(1 + {u}**2)", source)
+    force = page.known["F_t"].value
+    assert isinstance(force, float)
+    line = keys.application_factor * force / rated.width
+    usual = max(line, iso6336.LEAST_LINE_LOAD)
+    page.add("rated_line_load", usual, "{K_A} * {F_t} / {b}" if usual == line else "", source)
+    third = "2" if parameter <= 0.2 else "(2.071 - 0.357 * {v_z})"
+    formula = ""
+    if parameter <= iso6336.MOST_SPEED and (not helical or overlap >= 1):
+        first, second = iso6336.dynamic_coefficients(grade, helical=helical)
+        page.told(first_dynamic_coefficient=first, second_dynamic_coefficient=second)
+        formula = f"1 + ({{K_1}} / {{w_A}} + {{K_2}}) * {{v_z}} * {third}"
+    value = iso6336.dynamic_factor(grade, parameter, line, overlap, helical=helical)
+    page.add("speed_factor", value, formula, source)
+    if parameter > iso6336.MOST_SPEED:
+        page.notes.append(finding_of(0, Finding("strength_speed", parameter, iso6336.MOST_SPEED)))
+
+
+def _torques(page: Sheet, rated: Rated, torque: float) -> None:
+    """What torque on the first gear either safety lets through, and the least of them all."""
+    keys, found = rated.keys, []
+    page.section("Torque allowed on the first gear")
+    for name, symbol in (("least_contact_safety", "S_Hmin"), ("least_bending_safety", "S_Fmin")):
+        if symbol not in page.known:
+            page.given(**{name: getattr(keys, name)})
+    for name, key, least, power in (
+        ("contact_torque", "S_H", keys.least_contact_safety, 2),
+        ("bending_torque", "S_F", keys.least_bending_safety, 1),
+    ):
+        for index in (1, 2):
+            safety = page.known.get(f"{key}{index}")
+            if safety is None:
+                continue
+            assert isinstance(safety.value, float)
+            found.append(torque * (safety.value / least) ** power)
+            raised = "**2" if power == 2 else ""
+            page.add(name, found[-1], f"{{T1}} * ({{{key}#}} / {{{key}min}}){raised}", gear=index)
+            if safety.value < least:
+                page.notes.append(finding_of(index, Finding(f"strength_{name}", safety.value, least)))
+    if found:
+        page.add("allowed_torque", min(found))
+    else:
+        page.sections.pop()
+
+
+_TITLES = {
+    "ISO 6336": N_("Load capacity by ISO 6336:2019"),
+    "ISO 6336:2006": N_("Load capacity by ISO 6336:2006"),
+    "GOST 21354": N_("Load capacity by GOST 21354-87"),
+}
+PAIRS: Pairs = {
+    "external_gear_pair": (
+        LoadedPairKeys, partial(external_page, kind=LoadedPairKeys, topic=TOPIC, page_of=_external)
+    ),
+    "internal_gear_pair": (
+        LoadedInternalKeys, partial(internal_page, kind=LoadedInternalKeys, topic=TOPIC, page_of=_internal)
+    ),
+}  # fmt: skip

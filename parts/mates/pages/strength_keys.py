@@ -1,0 +1,296 @@
+"""What ``higherpair calc strength`` is given: a pair of gears, its load, and what its materials bear."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Annotated, Any, Literal, TypeVar, get_type_hints
+
+import msgspec
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from geometry.base.record import Record
+from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.strength.materials import Group, Quality
+from geometry.gears.teeth.ring import RingGear
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import base_helix_angle
+from parts.base.refusal import REMOVED
+from parts.base.schema import fields_of
+from parts.keys.base import mm, size
+from parts.mates.pages.external import PairKeys
+from parts.mates.pages.internal import InternalKeys
+from parts.pages.contact_steps import Helical
+from parts.pages.force_steps import DrivenKeys
+from parts.pages.page import Sheet
+
+T = TypeVar("T")
+K = TypeVar("K", bound=Struct)
+Pair = ExternalPair | InternalPair
+# steel
+_MODULUS, _RATIO = 206_000.0, 0.3
+
+_Factor = Annotated[float, Meta(gt=0, le=100)]
+_Stress = Annotated[float, size("MPa", "", above=0, most=10_000)]
+_Roughness = Annotated[float, size("um", "", above=0, most=1000)]
+_Hardness = Annotated[float, Meta(gt=0, le=2000)]
+_Modulus = Annotated[float, size("MPa", "", above=0, most=1e7)]
+_Poisson = Annotated[float, Meta(ge=0, le=0.5)]
+_Rim = Annotated[float, mm("", above=0, most=10_000)]
+GroupName = Literal[
+    "St", "V", "V alloy", "Eh", "IF", "NT", "NV", "NV nitrocarburized", "GTS", "GGG", "GGG ferritic", "GG"
+]
+Method = Literal["ISO 6336", "ISO 6336:2006", "GOST 21354"]
+
+# msgspec 0.23 crashes where a union has a tuple of two
+_TWO = Meta(min_length=2, max_length=2)
+_METHOD = Meta(description="the standard; ISO 6336 is its edition of 2019")
+_BOTH = "; one for both gears, or [first, second]"
+
+
+class LoadKeys(DrivenKeys, kw_only=True):
+    """Keys of the load and of the materials; those of one gear are given once for both, or as a list of two."""
+
+    method: Annotated[Method, _METHOD] = "ISO 6336"
+    application_factor: Annotated[_Factor, Meta(description="K_A")] = 1.0
+    dynamic_factor: Annotated[_Factor, Meta(description="K_v; default: by accuracy_grade and speed, else 1")] | None = (
+        None
+    )
+    accuracy_grade: Annotated[int, Meta(ge=3, le=12, description="grade of ISO 1328, for K_v and Y_DT")] | None = None
+    face_load_factor: Annotated[_Factor, Meta(description="K_Hbeta")] = 1.0
+    root_face_load_factor: Annotated[_Factor, Meta(description="K_Fbeta; default: K_Hbeta^N_F")] | None = None
+    transverse_load_factor: Annotated[_Factor, Meta(description="K_Halpha")] = 1.0
+    root_transverse_load_factor: Annotated[_Factor, Meta(description="K_Falpha; default: K_Halpha")] | None = None
+    profile_factor: Annotated[float, Meta(ge=1, le=1.2, description="f_ZCa of ISO 6336-2:2019, helical teeth")] = 1.0
+    load_cycles: Annotated[float, Meta(ge=1, le=1e15, description="load cycles of the first gear's teeth")] | None = (
+        None
+    )
+    life_hours: Annotated[float, Meta(gt=0, le=1e9, description="life in hours, by speed_rpm")] | None = None
+    long_life_factor: Annotated[float, Meta(ge=0.85, le=1, description="Z_NT and Y_NT at 10^10 cycles")] = 0.85
+    pits_allowed: Annotated[bool, Meta(description="some pits are allowed: another line of Z_NT")] = False
+    oil_viscosity: Annotated[float, size("mm2/s", "of the oil at 40 degrees, for Z_L", above=0, most=1e5)] | None = None
+    least_contact_safety: Annotated[_Factor, Meta(description="S_Hmin")] = 1.0
+    least_bending_safety: Annotated[_Factor, Meta(description="S_Fmin")] = 1.0
+    material_group: (
+        Annotated[GroupName | Annotated[list[GroupName], _TWO], Meta(description=f"group of ISO 6336-5{_BOTH}")] | None
+    ) = None
+    material_quality: Annotated[
+        Quality | Annotated[list[Quality], _TWO], Meta(description=f"quality of ISO 6336-5{_BOTH}")
+    ] = "MQ"
+    hardness: (
+        Annotated[
+            _Hardness | Annotated[list[_Hardness], _TWO],
+            Meta(description=f"HBW of St and of iron, HV of others, HB by GOST{_BOTH}"),
+        ]
+        | None
+    ) = None
+    contact_limit: (
+        Annotated[
+            _Stress | Annotated[list[_Stress], _TWO],
+            Meta(description=f"sigma_Hlim; default: by group and hardness{_BOTH}", extra={"unit": "MPa"}),
+        ]
+        | None
+    ) = None
+    bending_limit: (
+        Annotated[
+            _Stress | Annotated[list[_Stress], _TWO],
+            Meta(description=f"sigma_Flim; default: by group and hardness{_BOTH}", extra={"unit": "MPa"}),
+        ]
+        | None
+    ) = None
+    yield_strength: (
+        Annotated[
+            _Stress | Annotated[list[_Stress], _TWO],
+            Meta(description=f"of St, V, GTS and GGG, for Y_deltarelT{_BOTH}", extra={"unit": "MPa"}),
+        ]
+        | None
+    ) = None
+    elastic_modulus: Annotated[_Modulus | Annotated[list[_Modulus], _TWO], Meta(description=f"E{_BOTH}")] = _MODULUS
+    poisson_ratio: Annotated[_Poisson | Annotated[list[_Poisson], _TWO], Meta(description=f"nu{_BOTH}")] = _RATIO
+    flank_roughness: (
+        Annotated[
+            _Roughness | Annotated[list[_Roughness], _TWO], Meta(description=f"R_z of the flanks, for Z_R{_BOTH}")
+        ]
+        | None
+    ) = None
+    root_roughness: (
+        Annotated[
+            _Roughness | Annotated[list[_Roughness], _TWO], Meta(description=f"R_z of the fillets, for Y_RrelT{_BOTH}")
+        ]
+        | None
+    ) = None
+    rim_thickness: Annotated[_Rim | Annotated[list[_Rim], _TWO], Meta(description=f"s_R, for Y_B{_BOTH}")] | None = None
+    flank_factor: (
+        Annotated[
+            _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Z_L Z_v Z_R as one; by GOST Z_R Z_v{_BOTH}")
+        ]
+        | None
+    ) = None
+    hardening_factor: (
+        Annotated[
+            _Factor | Annotated[list[_Factor], _TWO],
+            Meta(description=f"Z_W; default: by hardness on a hard mate{_BOTH}"),
+        ]
+        | None
+    ) = None
+    surface_factor: (
+        Annotated[
+            _Factor | Annotated[list[_Factor], _TWO],
+            Meta(description=f"Y_RrelT, by GOST Y_R; default: by root_roughness{_BOTH}"),
+        ]
+        | None
+    ) = None
+    gradient_factor: (
+        Annotated[
+            _Factor | Annotated[list[_Factor], _TWO],
+            Meta(description=f"Y_deltarelT, by GOST Y_delta; default: by material or module{_BOTH}"),
+        ]
+        | None
+    ) = None
+    reversing_factor: Annotated[
+        _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Y_M, 0.7 of idlers; by GOST K_R{_BOTH}")
+    ] = 1.0
+    form_factor: (
+        Annotated[
+            _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Y_FS by GOST, which has none of a ring{_BOTH}")
+        ]
+        | None
+    ) = None
+
+
+def _loaded(pair: type[K]) -> type[K]:
+    """The keys of a pair with those of its load: no struct has two tables of keys for bases."""
+    hints = get_type_hints(LoadKeys, include_extras=True)
+    own = [f for f in fields_of(LoadKeys) if f.name not in {f.name for f in fields_of(pair)}]
+    more = [(f.name, hints[f.name], f.default) for f in own]
+    made: Any = msgspec.defstruct(
+        f"Loaded{pair.__name__}",
+        more,
+        bases=(pair,),
+        namespace={"__doc__": "Keys of a pair, its load and its materials."},
+        module=__name__,
+        kw_only=True,
+        forbid_unknown_fields=True,
+    )
+    kind: type[K] = made
+    return kind
+
+
+LoadedPairKeys, LoadedInternalKeys = _loaded(PairKeys), _loaded(InternalKeys)
+
+
+def each(value: T | list[Any]) -> tuple[T, T]:
+    """What a key says of both gears."""
+    return (value[0], value[1]) if isinstance(value, list) else (value, value)
+
+
+class Rated(Record, dict=True):
+    """A pair with the load and the materials that its keys give it; ``width``: the face in common, mm."""
+
+    pair: Pair
+    keys: LoadKeys
+    helical: Helical
+    width: float
+
+    @property
+    def helix(self) -> float:
+        """Beta, rad; 0 of straight teeth."""
+        return self.helical.angle
+
+    @property
+    def overlap(self) -> float:
+        """eps_beta, of each half of double helical teeth."""
+        return self.helical.face.overlap_ratio if self.helix else 0.0
+
+    @property
+    def groups(self) -> tuple[Group | None, Group | None]:
+        """The groups of both materials, where they are given."""
+        from geometry.gears.strength.materials import GROUPS
+
+        one, two = (None if name is None else GROUPS[name] for name in each(self.keys.material_group))
+        return one, two
+
+    @property
+    def cycles(self) -> tuple[float, float] | None:
+        """Load cycles of both gears' teeth, one contact in a turn; None: none is asked for.
+
+        Raises
+        ------
+        ParameterError
+            They are given twice, or hours without a speed.
+        """
+        keys = self.keys
+        first = keys.load_cycles
+        if keys.life_hours is not None:
+            if first is not None:
+                raise ParameterError("life_hours", keys.life_hours, "other_is_given", REMOVED, other="load_cycles")
+            if keys.speed_rpm is None:
+                raise ParameterError("life_hours", keys.life_hours, "needs_other", REMOVED, other="speed_rpm")
+            first = 60 * keys.speed_rpm * keys.life_hours
+        return None if first is None else (first, first / self.pair.gear_ratio)
+
+    @property
+    def speed(self) -> float | None:
+        """v on the reference circles, m/s."""
+        rpm = self.keys.speed_rpm
+        return None if rpm is None else math.pi * rpm * self.pair.first.reference_radius / 30_000
+
+    @property
+    def gears(self) -> tuple[SpurGear | RingGear, SpurGear | RingGear]:
+        """Both gears in their transverse sections, as the pair has them."""
+        return self.pair.first, self.pair.second
+
+    @property
+    def normal_module(self) -> float:
+        """m_n, mm."""
+        return self.helical.normal.module
+
+    @property
+    def base_helix(self) -> float:
+        """beta_b, rad."""
+        return base_helix_angle(self.pair.first.rack.pressure_angle, self.helix) if self.helix else 0.0
+
+    @property
+    def profile_factor(self) -> float:
+        """f_ZCa, which the edition of 2006 has not."""
+        return 1.0 if self.keys.method == "ISO 6336:2006" else self.keys.profile_factor
+
+    @cached_property
+    def active_tips(self) -> tuple[float, float]:
+        """r_Na of both gears, mm: where contact ends towards the tips."""
+        (_, first), second = self.pair.active_profile_radii
+        return first, second[1] if self.pair.sign > 0 else second[0]
+
+    def force(self, torque: float) -> float:
+        """F_t, N, of a torque on the first gear, N m."""
+        return 1000 * torque / self.pair.first.reference_radius
+
+    def contact_parameter(self, index: int) -> float | None:
+        """M_1 or M_2: the stress where single contact of a gear begins against that at the pole, by the curvatures.
+
+        None where contact there would lie beyond a base circle.
+        """
+        pair, base = self.pair, self.pair.first.base_radius
+        line = pair.working_centre_distance * math.sin(pair.working_pressure_angle)
+        pole = base * math.tan(pair.working_pressure_angle)
+        low, high = pair.active_line
+        at = high - pair.base_pitch if index == 0 else low + pair.base_pitch
+        product, mate = at * (line - pair.sign * at), line - pair.sign * pole
+        return math.sqrt(pole * mate / product) if at > 0 and product > 0 else None
+
+    @property
+    def reduced_curvature(self) -> float:
+        """rho_red at the pole, mm."""
+        one, two = (g.base_radius * math.tan(self.pair.working_pressure_angle) for g in self.gears)
+        return one * two / (two + self.pair.sign * one)
+
+    def is_hard(self, index: int) -> bool:
+        """Whether the flanks of a gear are hardened, by its group."""
+        group = self.groups[index - 1]
+        return group is not None and group.is_hard
+
+    def value(self, page: Sheet, key: str) -> float:
+        """A number that the page knows already."""
+        return float(page.value_of(key).value)
