@@ -286,13 +286,8 @@ def pretty(text: str, words: Words) -> str:
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)\*\*([23])", lambda m: f"{m[1]}{_SUPERSCRIPTS[m[3]]} {m[2]}", text)
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)", r"\1 \2", text)
     text = re.sub(r"\*\*([234])", lambda m: _SUPERSCRIPTS[m[1]], text)
-<<<<<<< HEAD
-    text = re.sub(r"\bpi\b", "π", text)
-    while found := re.search(r"\b(abs|ceil|floor)\(", text):
-=======
     text = re.sub(r"\bpi\b", "π", text).replace("**(", "^(")
-    while found := re.search(r"\babs\(", text):
->>>>>>> 7861fe41 (calc strength rates a pair by ISO 6336 or GOST 21354-87, the root's critical section on the exact fillet)
+    while found := re.search(r"\b(abs|ceil|floor)\(", text):
         end, depth = found.end(), 1
         while depth:
             depth += {"(": 1, ")": -1}.get(text[end], 0)
