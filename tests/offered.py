@@ -115,6 +115,9 @@ def scenes() -> dict[str, Raw]:
         "table": _one(cam(phases=None, lift=None, motion_table=TABLE)),
         "measured": _one(cam(phases=None, lift=None, motion_table=ROWS, table_tolerance=0.05)),
         "swinging roller": _one(cam(**swing)),
+        "least return": _one(cam(
+            base_circle_radius=None, least_transmission_angle_deg=60.0, least_return_transmission_angle_deg=50.0,
+        )),
         "least swing": _one(cam(**swing, base_circle_radius=None, least_transmission_angle_deg=50.0)),
         "swinging pointed": _one(cam(**swing, follower="pointed", follower_radius=None)),
         "swinging flat": _one(cam(follower="flat", follower_radius=None, lift=None, swing_deg=10.0,

@@ -50,6 +50,7 @@ def cam_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             spec.least_curvature_radius,
             wanted.language,
             export.speed_rpm,
+            None if linked else spec.least_return_transmission_angle_deg,
         )
         page = calculation.sheet(table)
         # the position in numbers is for the page alone

@@ -88,12 +88,14 @@ BaseCircle = Annotated[float, part_mm(_BASE_CIRCLE, above=0), start(30.0)]
 LeastTransmission = Annotated[
     float,
     degrees(
-        "gamma_min = 90 - pressure angle: on the rise, of a swinging roller both ways; flat: 45",
+        "gamma_min = 90 - pressure angle: on the rise, of a swinging roller on the return too; flat: 45",
         above=0,
         below=90,
         example=60.0,
     ),
 ]
+_LEAST_RETURN = "gamma_min on the return; 0 is any, the default but of a swinging roller, whose is that of the rise"
+LeastReturn = Annotated[float, degrees(_LEAST_RETURN, least=0, below=90, example=20.0)]
 LeastCurvature = Annotated[float, part_mm("rho: least convex radius of the cam", least=0)]
 FollowerOffset = Annotated[
     float, part_mm("line of motion at x = e; e > 0 lowers the pressure angle of the rise", least=-MOST_LENGTH)

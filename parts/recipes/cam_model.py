@@ -22,6 +22,7 @@ from parts.keys.cam import (
     FollowerOffset,
     FollowerRadius,
     LeastCurvature,
+    LeastReturn,
     LeastTransmission,
     Lift,
     MotionTable,
@@ -45,7 +46,8 @@ _MARK, _LEAST_MARK, _LEAST_AXLE = 2.0, 0.5, 0.5
 _PLATE, _ROUNDING, _CORNER, _FRAME_WIDTH = 8.0, 3.0, 6.0, 60.0
 _CAM_KEYS = (
     "follower", "lift", "phases", "motion_table", "table_tolerance", "follower_radius", "follower_offset",
-    "base_circle_radius", "least_transmission_angle_deg", "least_curvature_radius",
+    "base_circle_radius", "least_transmission_angle_deg",
+    "least_return_transmission_angle_deg", "least_curvature_radius",
 )  # fmt: skip
 
 _SLOT_START = mm(
@@ -69,6 +71,7 @@ class CamModelKeys(ModelKeys, kw_only=True, tag="cam_model"):
     follower_offset: FollowerOffset = 0.0
     base_circle_radius: BaseCircle | None = None
     least_transmission_angle_deg: LeastTransmission | None = None
+    least_return_transmission_angle_deg: LeastReturn | None = None
     least_curvature_radius: LeastCurvature = 0.0
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
     clearance: Annotated[float, _CLEARANCE] = 0.2

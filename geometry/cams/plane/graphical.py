@@ -206,16 +206,19 @@ def graphical_flat_radius(drawn: GraphicalMotion) -> float:
     return best
 
 
-def graphical_prime_radius(drawn: GraphicalMotion, offset: float, rise_limit: float) -> float:
+def graphical_prime_radius(
+    drawn: GraphicalMotion, offset: float, rise_limit: float, return_limit: float | None = None
+) -> float:
     """r_0 by the tangent at gamma_min = 90 degrees - ``rise_limit`` (rad) to the drawn diagram S(S'), mm.
 
-    Lesson 5, section 3.2, figure 5.6: O'_1 stands on the axis S' that is moved by E; of a rise only (force closure).
+    Lesson 5, section 3.2, figure 5.6: O'_1 stands on the axis S' that is moved by E; of a rise only (force closure),
+    unless returns have a limit too.
     """
-    steep = 1 / math.tan(rise_limit)
+    limits = {PhaseKind.RISE: rise_limit, PhaseKind.RETURN: return_limit}
     height = 0.0
     for phase in drawn.phases:
-        if phase.kind is PhaseKind.RISE:
-            for side in (steep, -steep):
+        if (limit := limits.get(phase.kind)) is not None:
+            for side in (1 / math.tan(limit), -1 / math.tan(limit)):
                 height = max(height, _touch(side * phase.rate - phase.lift) - offset * side)
     return math.hypot(offset, height)
 
@@ -257,7 +260,9 @@ def graphical_profile_error(cam: DiskCam, drawn: GraphicalMotion) -> float:
     return float(distance_to_curves(graphical_profile(cam, drawn), curves).max())
 
 
-def graphical_radius(cam: DiskCam, drawn: GraphicalMotion, rise_limit: float | None) -> tuple[float, float] | None:
+def graphical_radius(
+    cam: DiskCam, drawn: GraphicalMotion, rise_limit: float | None, return_limit: float | None = None
+) -> tuple[float, float] | None:
     """r_0 by the drawing and exactly, mm; None of an oscillating cam, or of a roller without a limit (rad)."""
     from geometry.cams.plane.synthesis import flat_base_radius, roller_prime_radius
 
@@ -267,5 +272,5 @@ def graphical_radius(cam: DiskCam, drawn: GraphicalMotion, rise_limit: float | N
         return graphical_flat_radius(drawn), flat_base_radius(cam.motion).value
     if rise_limit is None or not cam.motion.moving_pieces(PhaseKind.RISE):
         return None
-    offset = cam.mount.offset
-    return graphical_prime_radius(drawn, offset, rise_limit), roller_prime_radius(cam.motion, offset, rise_limit)
+    limits = cam.mount.offset, rise_limit, return_limit
+    return graphical_prime_radius(drawn, *limits), roller_prime_radius(cam.motion, *limits)

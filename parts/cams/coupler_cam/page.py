@@ -73,7 +73,7 @@ def sheet(keys: LinkageKeys) -> Sheet:
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm))
     page.tables.append(linkage_table(cam, keys.step))
-    finish(page, keys, cam, None, _NOTES)
+    finish(page, keys, cam, _NOTES)
     told = [f for f in linkage_findings(keys, cam) if not f.code.endswith("_impact")]
     page.notes += [finding_message(f) for f in told]
     return page

@@ -38,9 +38,12 @@ _HINDRANCES = {
 
 
 def graphical_section(
-    page: Sheet, cam: DiskCam, transmission_angle_deg: float | None, intervals: int, drawing: str = "smooth"
+    page: Sheet, cam: DiskCam, limits: tuple[float | None, float | None], intervals: int, drawing: str = "smooth"
 ) -> None:
-    """Both integrations by mid-ordinates, the least radius and the profile that follow, each with its error."""
+    """Both integrations by mid-ordinates, the least radius and the profile that follow, each with its error.
+
+    ``limits``: the greatest pressure angles of rises and returns by which the radius is drawn, rad; None: any.
+    """
     hindered = graphical_hindrance(cam.motion)
     if hindered is not None:
         page.note(_HINDRANCES[hindered[0]], law=law_text(hindered[1]))
@@ -63,8 +66,7 @@ def graphical_section(
     else:
         page.add("graphical_lift_error", worst, "", integration)
         page.add("graphical_velocity_error", float(np.abs(drawn.errors(1)).max()), "", integration)
-    limit = None if transmission_angle_deg is None else math.radians(90 - transmission_angle_deg)
-    found = graphical_radius(cam, drawn, limit)
+    found = graphical_radius(cam, drawn, *limits)
     if found is not None:
         page.add("graphical_prime_circle_radius", found[0], "", radius)
         page.add("graphical_radius_error", found[0] - found[1], "{r_0g} - {r_0}", radius)

@@ -36,6 +36,7 @@ from parts.cams.disk_cam.part import (
     CamSpec,
     largest_roller_radius,
     pressure_angles,
+    pressure_limits,
 )
 from parts.cams.disk_cam.scale_page import DrawnTable, scale_section
 from parts.cams.disk_cam.speed_page import speed_section
@@ -144,7 +145,8 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
     roller_section(page, cam, keys.least_curvature_radius)
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm, cutter_diameter=keys.cutter_diameter))
-    finish(page, keys, cam, keys.least_transmission_angle_deg)
+    asked = keys.least_transmission_angle_deg
+    finish(page, keys, cam, limits=(None, None) if asked is None else pressure_limits(keys, asked))
     if keys.drawn is not None:
         scale_section(page, cam, keys.drawn)
     for phase in cam.motion.phases:
@@ -158,10 +160,14 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
 
 
 def finish(
-    page: Sheet, keys: Any, cam: DiskCam, transmission_angle_deg: float | None, notes: Sequence[str] = ()
+    page: Sheet,
+    keys: Any,
+    cam: DiskCam,
+    notes: Sequence[str] = (),
+    limits: tuple[float | None, float | None] = (None, None),
 ) -> None:
-    """The graphical method (its least radius by this angle), velocities, ``notes`` and the remarks on the motion."""
-    graphical_section(page, cam, transmission_angle_deg, keys.intervals, keys.drawing)
+    """The graphical method (its least radius by these angles), velocities, ``notes`` and the remarks on the motion."""
+    graphical_section(page, cam, limits, keys.intervals, keys.drawing)
     if keys.speed_rpm is not None:
         speed_section(page, cam.motion, keys.speed_rpm, slides=not cam.swings)
     page.notes += notes
@@ -193,17 +199,21 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     """Least radius by the pressure angle or the curvature, and what the cam has."""
     page.section("Sizes")
     asked = keys.least_transmission_angle_deg
+    page.told(least_return_transmission_angle_deg=keys.least_return_transmission_angle_deg or None)
     if isinstance(cam.mount, Translating):
         if cam.is_flat:
             page.add("least_prime_circle_radius", flat_base_radius(cam.motion).value, "", LESSON_4)
         elif asked is not None:
-            least = roller_prime_radius(cam.motion, keys.follower_offset, math.radians(90 - asked))
-            page.add("least_prime_circle_radius", least, "", LESSON_5)
+            rise, back = pressure_limits(keys, asked)
+            whole = (back, "least_prime_circle_radius")
+            for limit, name in (whole,) if back is None else ((None, "least_rise_radius"), whole):
+                least = roller_prime_radius(cam.motion, keys.follower_offset, rise, limit)
+                page.add(name, least, "", LESSON_5)
     if isinstance(cam.mount, Oscillating):
         if cam.is_flat:
             _rocker(page, keys, cam, cam.mount)
         elif asked is not None:
-            rocker_sizes(page, keys, cam, cam.mount)
+            rocker_sizes(page, keys, cam, cam.mount, *pressure_limits(keys, asked))
     page.told(curvature_reserve=keys.least_curvature_radius or None)
     base = cam.base_radius
     derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
@@ -277,15 +287,19 @@ def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> Non
         page.add("least_prime_circle_radius", least.prime_radius)
 
 
-def rocker_sizes(page: Sheet, keys: Any, cam: DiskCam, mount: Oscillating) -> None:
-    """The least prime circle of a swinging roller at its pivot's distance and at the best one, by gamma both ways."""
-    steep, arm = math.radians(90 - keys.least_transmission_angle_deg), mount.arm_length
+def rocker_sizes(page: Sheet, keys: Any, cam: DiskCam, mount: Oscillating, rise: float, back: float | None) -> None:
+    """The least prime circle of a swinging roller at its pivot's distance and at the best one.
+
+    ``rise``, ``back``: the greatest pressure angles, rad; None: any.
+    """
+    arm = mount.arm_length
     if keys.oscillating.centre_distance is None:
         page.add("centre_distance", mount.centre_distance)
-    for limit, name in ((None, "least_rise_radius"), (steep, "least_prime_circle_radius")):
-        low, high = oscillating_start_angles(cam.motion, arm, mount.centre_distance, mount.sense, steep, limit)
+    whole = (back, "least_prime_circle_radius")
+    for limit, name in (whole,) if back is None else ((None, "least_rise_radius"), whole):
+        low, high = oscillating_start_angles(cam.motion, arm, mount.centre_distance, mount.sense, rise, limit)
         if low <= high:
             page.add(name, oscillating_prime_radius(low, mount.centre_distance, arm), "", LESSON_4)
     with suppress(ConvergenceError):
-        best = oscillating_axis(cam.motion, arm, mount.sense, steep, steep)
+        best = oscillating_axis(cam.motion, arm, mount.sense, rise, back)
         page.told(best_centre_distance=best.centre_distance, smallest_prime_circle_radius=best.prime_radius)

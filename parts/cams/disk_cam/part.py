@@ -12,7 +12,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import ConvergenceError, Cure, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding, beyond
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.plane.profile import Profile
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
@@ -30,6 +30,7 @@ from parts.keys.cam import (
     FollowerOffset,
     FollowerRadius,
     LeastCurvature,
+    LeastReturn,
     LeastTransmission,
     Lift,
     MotionTable,
@@ -110,6 +111,7 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     oscillating: OscillatingTable | None = None
     base_circle_radius: BaseCircle | None = None
     least_transmission_angle_deg: LeastTransmission | None = None
+    least_return_transmission_angle_deg: LeastReturn | None = None
     least_curvature_radius: LeastCurvature = 0.0
 
 
@@ -211,6 +213,24 @@ def _fitted(keys: CamSpec, refusal: ParameterError) -> ParameterError:
     return refusal.told_of(refusal.name, refusal.value, cure)
 
 
+def pressure_limits(keys: CamSpec, rise_deg: float) -> tuple[float, float | None]:
+    """The greatest pressure angles on rises and on returns, rad, by the transmission angle of the rise; None: any."""
+    back = keys.least_return_transmission_angle_deg
+    if back is None:
+        back = 0.0 if keys.oscillating is None else rise_deg
+    return math.radians(90 - rise_deg), math.radians(90 - back) if back else None
+
+
+def _steep_for(keys: CamSpec, code: str, fits: Callable[[CamSpec], bool], **numbers: float) -> ParameterError:
+    """The refusal of the transmission angle that asks for too much: of the return where the rise's alone would do."""
+    key, back = "least_transmission_angle_deg", "least_return_transmission_angle_deg"
+    if getattr(keys, back) and kept(fits, replaced(keys, back, 0.0)):
+        key = back
+    given = getattr(keys, key)
+    cure = partial(nearest, lambda tried: fits(replaced(keys, key, tried)), given, _EASIER)
+    return ParameterError(key, given, code, cure, **numbers)
+
+
 def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
     """The base circle by the textbook's condition: r_0 + rho of a flat face, r_0 - r of a roller."""
     from geometry.cams.plane.disk import FollowerKind, check_radius
@@ -224,28 +244,31 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
             raise ParameterError("base_circle_radius", None, "base_circle_missing_flat")
         if angle not in (None, 45):
             raise ParameterError("least_transmission_angle_deg", angle, "flat_angle_is_45", Nearest(45.0))
+        if keys.least_return_transmission_angle_deg:
+            back = keys.least_return_transmission_angle_deg
+            raise ParameterError("least_return_transmission_angle_deg", back, "flat_has_no_return_angle", Nearest(0.0))
         least = flat_base_radius(motion, keys.least_curvature_radius).value
         return max(least * spare, 1e-3 * motion.lift)
     if angle is None:
         raise ParameterError("base_circle_radius", None, "base_circle_missing")
 
-    def prime_of(tried: float) -> float:
-        return roller_prime_radius(motion, keys.follower_offset, math.radians(90 - tried))
+    def prime_of(tried: CamSpec) -> float:
+        steepest = pressure_limits(tried, tried.least_transmission_angle_deg or 0.0)
+        return roller_prime_radius(motion, keys.follower_offset, *steepest)
 
-    base = _base_within(keys, prime_of(angle), prime_of, angle)
+    base = _base_within(keys, prime_of(keys), prime_of)
     if keys.follower == "pointed":
         return base
     rho = keys.least_curvature_radius
     return max(base, spare * convex_roller_base_radius(motion, radius, rho, follower_offset=keys.follower_offset))
 
 
-def _base_within(keys: CamSpec, prime: float, prime_of: Callable[[float], float], angle: float) -> float:
+def _base_within(keys: CamSpec, prime: float, prime_of: Callable[[CamSpec], float]) -> float:
     """The base circle in a prime circle; refused where it is too large for a file, or no larger than the roller."""
     radius = keys.follower_radius
     if prime > MOST_LENGTH:
-        key = "least_transmission_angle_deg"
-        angle_for = partial(nearest, lambda x: prime_of(x) <= MOST_LENGTH, angle, _EASIER)
-        raise ParameterError(key, angle, "prime_circle_too_large", angle_for, prime=prime, most=MOST_LENGTH)
+        numbers = {"prime": prime, "most": MOST_LENGTH}
+        raise _steep_for(keys, "prime_circle_too_large", lambda tried: prime_of(tried) <= MOST_LENGTH, **numbers)
     if not prime - radius > 0:
         most = limit(prime * 0.9999, radius) if prime > 0 else None
         raise ParameterError("follower_radius", radius, "fills_prime_circle", most, prime=prime)
@@ -253,7 +276,7 @@ def _base_within(keys: CamSpec, prime: float, prime_of: Callable[[float], float]
 
 
 def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion) -> DiskCam:
-    """The smallest cam whose transmission angle is kept both ways: at the pivot's distance, or at the best one."""
+    """The smallest cam that keeps its transmission angles: at the pivot's distance, or at the best one."""
     from geometry.cams.motion.guides import oscillating_prime_radius
     from geometry.cams.plane.synthesis import convex_rocker_base_radius, oscillating_axis, oscillating_start_angles
 
@@ -263,21 +286,19 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
     if angle is None:
         raise ParameterError("base_circle_radius", None, "base_circle_missing")
 
-    def best(tried: float) -> OscillatingAxis:
-        steep = math.radians(90 - tried)
-        return oscillating_axis(motion, arm, swing.turning, steep, steep)
+    def limits(tried: CamSpec) -> tuple[float, float | None]:
+        return pressure_limits(tried, tried.least_transmission_angle_deg or 0.0)
 
-    def ends(away: float, tried: float = angle) -> tuple[float, float]:
-        steep = math.radians(90 - tried)
-        return oscillating_start_angles(motion, arm, away, swing.turning, steep, steep)
+    def best(tried: CamSpec) -> OscillatingAxis:
+        return oscillating_axis(motion, arm, swing.turning, *limits(tried))
 
-    def no_axis(keeps: Callable[[float], bool]) -> ParameterError:
-        key = "least_transmission_angle_deg"
-        return ParameterError(key, angle, "no_axis_keeps_angle", lambda: nearest(keeps, angle, _EASIER))
+    def ends(away: float, tried: CamSpec = keys) -> tuple[float, float]:
+        return oscillating_start_angles(motion, arm, away, swing.turning, *limits(tried))
 
+    no_axis = partial(_steep_for, keys, "no_axis_keeps_angle")
     if distance is None:
         try:
-            found = best(angle)
+            found = best(keys)
         except ConvergenceError as error:
             raise no_axis(lambda tried: best(tried).prime_radius <= MOST_LENGTH) from error
         distance, start = found.centre_distance, found.start_angle
@@ -288,7 +309,7 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
             away = distance
             try:
                 # the distance of the smallest cam serves, where any does
-                far = best(angle).centre_distance
+                far = best(keys).centre_distance
             except ConvergenceError as error:
                 raise no_axis(lambda tried: operator.lt(*ends(away, tried))) from error
 
@@ -297,7 +318,7 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
 
             raise ParameterError("centre_distance", distance, "pivot_keeps_no_angle", cured)
     prime, most = (oscillating_prime_radius(psi, distance, arm) for psi in (start, end))
-    base = _base_within(keys, prime, lambda tried: best(tried).prime_radius, angle)
+    base = _base_within(keys, prime, lambda tried: best(tried).prime_radius)
     if keys.follower != "pointed":
         rho = keys.least_curvature_radius
         most = min(most, MOST_LENGTH) - keys.follower_radius
@@ -486,12 +507,13 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     found += impact_findings(cam.motion, swings=swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     found += steep(steepest, USUAL_PRESSURE_ANGLE[swings])
-    asked = spec.least_transmission_angle_deg
-    if asked is not None and not cam.is_flat:
-        # a swinging follower's is kept both ways, a sliding one's on the rise
-        back = math.degrees(greatest_pressure_angle(cam, PhaseKind.RETURN).value) if swings else 0.0
-        if (kept := 90 - max(steepest, back)) < asked - _KEPT_DEG:
-            found.append(Finding("transmission_angle_not_kept", kept, asked))
+    back = math.degrees(greatest_pressure_angle(cam, PhaseKind.RETURN).value)
+    asked, told = spec.least_transmission_angle_deg, spec.least_return_transmission_angle_deg
+    # a swinging follower's is kept both ways, a sliding one's on the rise, unless the return has its own
+    worst = max(steepest, back) if swings and told is None else steepest
+    for code, least, most in (("", asked, worst), ("return_", told, back)):
+        if least is not None and not cam.is_flat and 90 - most < least - _KEPT_DEG:
+            found.append(Finding(f"{code}transmission_angle_not_kept", 90 - most, least))
     pitch = least_convex_radius(cam).value + cam.radius
     if cam.kind == "roller":
         found += beyond("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch)

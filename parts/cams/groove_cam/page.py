@@ -51,7 +51,7 @@ def sheet(keys: GrooveKeys) -> Sheet:
     outer = N_("outer wall")
     page.tables.append(positions(cam, keys.step, "positions_outer", outer, beyond=beyond, speed_rpm=keys.speed_rpm))
     # the drawing's least radius is that of the rise alone
-    finish(page, keys, cam, None)
+    finish(page, keys, cam)
     page.note(_SIGN)
     return page
 
@@ -60,12 +60,12 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
     cam = disk.cam
     page.section("Sizes")
     asked = keys.least_transmission_angle_deg
+    limit = math.radians(90 - (asked or 0.0))
     if isinstance(cam.mount, Translating) and asked is not None:
-        limit = math.radians(90 - asked)
         least = roller_prime_radius(cam.motion, keys.follower_offset, limit, limit)
         page.add("least_radius_both_ways", least, "", LESSON_5)
     if isinstance(cam.mount, Oscillating) and asked is not None:
-        rocker_sizes(page, keys, cam, cam.mount)
+        rocker_sizes(page, keys, cam, cam.mount, limit, limit)
     base_step(page, cam)
     reached(page, cam)
     page.told(least_curvature_radius=least_convex_radius(cam).value, least_hollow_radius=least_hollow_radius(cam).value)

@@ -122,8 +122,10 @@ class Joint(Record):
         if self.picture.gamma is not None:
             symbol = "γ_{min}" if self.picture.asked or self.order == 2 else "γ"
             centre, arc = _angle_arc(self, paper, self.picture.gamma)
-            text = f"{symbol} = {angle_text(self.picture)}"
+            text = f"{symbol} = {angle_text(self.picture, self.picture.gamma)}"
             labels.name(text, centre + arc, prefer=arc, answer=False if self.picture.asked else None)
+            a, slope = self.borders[-1]
+            name_return(labels, self.picture, paper.point(complex(a / slope, 0.0)))
         angles = np.array([p.angle for p in self.picture.positions])
         points = self.picture.cam.motion.value(angles, self.order) + 1j * self.picture.cam.motion.value(angles)
         for text, point in numbered(self.picture, [to(point) for point in points.tolist()]):
@@ -143,10 +145,11 @@ def joint_of(picture: CamPicture) -> Joint | None:
     if picture.gamma is None:
         return None
     limit = math.pi / 2 - picture.gamma
-    region: AxisRegion = axis_region(cam.motion, limit)
+    least_back = None if picture.gamma_back is None else math.pi / 2 - picture.gamma_back
+    region: AxisRegion = axis_region(cam.motion, limit, least_back)
     least = complex(mount.offset, -region.least_height(mount.offset))
     back = None
-    if cam.motion.moving_pieces(PhaseKind.RETURN):
+    if least_back is None and cam.motion.moving_pieces(PhaseKind.RETURN):
         back = axis_region(cam.motion, limit, limit).lines[-1]
     return Joint(picture, 1, mount.offset, region.lines, least, complex(mount.offset, -mount.start_height), back)
 
@@ -175,13 +178,20 @@ def _points(joint: Joint) -> list[complex]:
 def name_asked(labels: Labeller, picture: CamPicture, point: complex) -> None:
     """The transmission angle that the scene asks for, for students to draw its lines."""
     if picture.asked and picture.gamma is not None:
-        labels.name(f"γ_{{min}} = {angle_text(picture)}", point, prefer=-1j, answer=False)
+        labels.name(f"γ_{{min}} = {angle_text(picture, picture.gamma)}", point, prefer=-1j, answer=False)
+        name_return(labels, picture, point)
 
 
-def angle_text(picture: CamPicture) -> str:
-    """The transmission angle of the tangents."""
-    assert picture.gamma is not None
-    return f"{picture.say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
+def name_return(labels: Labeller, picture: CamPicture, point: complex) -> None:
+    """The transmission angle of the return, where it has one of its own."""
+    back = picture.gamma_back
+    if back is not None and back != picture.gamma:
+        labels.name(f"γ'_{{min}} = {angle_text(picture, back)}", point, prefer=-1 - 1j, answer=False)
+
+
+def angle_text(picture: CamPicture, angle: float) -> str:
+    """A transmission angle, rad, as the sheet tells it."""
+    return f"{picture.say(math.degrees(angle)).rstrip('0').rstrip(',.')}°"
 
 
 def _clipped(point: complex, way: complex, box: Box) -> tuple[complex, complex]:

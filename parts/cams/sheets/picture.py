@@ -8,7 +8,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import PhaseKind
-from geometry.cams.motion.guides import Translating
+from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import GraphicalMotion, graphical_hindrance, graphical_motion
 from geometry.cams.plane.synthesis import greatest_pressure_angle
@@ -30,13 +30,15 @@ class Position(Record):
 class CamPicture(Record):
     """A cam and all that its sheet marks; ``gamma``: transmission angle of the tangents, rad, None of a flat swing.
 
-    ``asked``: whether gamma is the scene's; otherwise it is the one that the cam reaches.
+    ``asked``: whether gamma is the scene's; otherwise it is the one that the cam reaches. ``gamma_back``: that of the
+    return where it has one, rad.
     """
 
     cam: DiskCam
     intervals: int
     gamma: float | None
     asked: bool
+    gamma_back: float | None
     least_curvature_radius: float
     positions: tuple[Position, ...]
     drawn: GraphicalMotion | None
@@ -77,6 +79,7 @@ def cam_picture(
     least_curvature_radius: float,
     language: str,
     speed_rpm: float | None = None,
+    gamma_back_deg: float | None = None,
 ) -> CamPicture:
     """The picture of a cam with ``intervals`` parts of each phase.
 
@@ -96,9 +99,11 @@ def cam_picture(
     if cam.is_flat:
         gamma = None if not isinstance(cam.mount, Translating) else math.pi / 4
     positions = _positions(cam, intervals)
-    return CamPicture(
-        cam, intervals, gamma, gamma_deg is not None, least_curvature_radius, positions, drawn, language, speed_rpm
-    )
+    back = gamma if isinstance(cam.mount, Oscillating) else None
+    if gamma_back_deg is not None and not cam.is_flat:
+        back = math.radians(gamma_back_deg) if gamma_back_deg else None
+    asked = gamma_deg is not None
+    return CamPicture(cam, intervals, gamma, asked, back, least_curvature_radius, positions, drawn, language, speed_rpm)
 
 
 def _positions(cam: DiskCam, intervals: int) -> tuple[Position, ...]:

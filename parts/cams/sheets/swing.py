@@ -12,11 +12,12 @@ import numpy as np
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
 from geometry.cams.motion.diagrams import ArmCurve
+from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.synthesis import oscillating_axis
 from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
-from parts.cams.sheets.joint import HATCH, HATCH_STEP, NAMES, angle_text, name_asked
+from parts.cams.sheets.joint import HATCH, HATCH_STEP, NAMES, angle_text, name_asked, name_return
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import draw_faces, faces_box, from_pivot, name_numbers, name_rocker, rocker_region
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
@@ -30,8 +31,9 @@ _PLANES = 181
 class Swing(Record):
     """Model mm, the cam's axis at 0 and the pivot on +x; ``least``: the axis of the smallest cam, with its r_0.
 
-    ``planes``: (point, normal) of half-planes in which the axis may stand, rises and returns (of a flat follower, whose
-    cam must be convex, all of the turn); ``lowest`` roller centre, or foot of ``least`` on the lowest face.
+    ``planes``: (point, normal) of half-planes in which the axis may stand, of rises and returns that have a limit (of a
+    flat follower, whose cam must be convex, all of the turn); ``lowest`` roller centre, or foot of ``least`` on the
+    lowest face.
     """
 
     picture: CamPicture
@@ -103,9 +105,10 @@ class Swing(Record):
             return
         if self.picture.gamma is not None:
             symbol = "γ_{min}" if self.picture.asked else "γ"
-            text = f"{symbol} = {angle_text(self.picture)}"
+            text = f"{symbol} = {angle_text(self.picture, self.picture.gamma)}"
             point = self.least + 0.25 * (self.lowest - self.least)
             labels.name(text, to(point), prefer=1 + 0j, answer=False if self.picture.asked else None)
+            name_return(labels, self.picture, to(self.least + 0.5 * (self.lowest - self.least)))
         name_numbers(labels, self.picture, [to(foot) for foot, _ in _arms(self.picture)], to(self.pivot))
 
 
@@ -122,22 +125,26 @@ def swing_of(picture: CamPicture) -> Swing | None:
         return Swing(picture, complex(mount.centre_distance), foot, least, base, region)
     if picture.gamma is None:
         return None
-    limit = math.pi / 2 - picture.gamma
+    rise = math.pi / 2 - picture.gamma
+    back = None if picture.gamma_back is None else math.pi / 2 - picture.gamma_back
     try:
-        best = oscillating_axis(cam.motion, mount.arm_length, mount.sense, limit, limit)
+        best = oscillating_axis(cam.motion, mount.arm_length, mount.sense, rise, back)
     except GeometryError:
         return None
     pivot, lowest = complex(mount.centre_distance, 0.0), complex(cam.reference_point(0.0))
     placed = from_pivot(pivot, (lowest - pivot) / abs(lowest - pivot), mount.sense)
     planes = []
-    for piece in cam.motion.moving_pieces():
-        t = np.linspace(*piece.domain, _PLANES)
-        for s, rate in zip(piece.value(t).tolist(), piece.value(t, 1).tolist(), strict=True):
-            along = cmath.exp(-1j * s)
-            foot = placed(mount.arm_length * (1 + mount.sense * rate) * along)
-            for side in (1.0, -1.0):
-                normal = math.tan(limit) * 1j * along + side * along
-                planes.append((foot, (placed(normal) - pivot) / abs(normal)))
+    kinds = ((PhaseKind.RISE, rise), (PhaseKind.RETURN, back))
+    limits = [(set(cam.motion.moving(kind).tolist()), limit) for kind, limit in kinds if limit is not None]
+    for k, piece in enumerate(cam.motion.pieces):
+        for limit in dict.fromkeys(limit for members, limit in limits if k in members):
+            t = np.linspace(piece.start, piece.end, _PLANES)
+            for s, rate in zip(piece.value(t).tolist(), piece.value(t, 1).tolist(), strict=True):
+                along = cmath.exp(-1j * s)
+                foot = placed(mount.arm_length * (1 + mount.sense * rate) * along)
+                for side in (1.0, -1.0):
+                    normal = math.tan(limit) * 1j * along + side * along
+                    planes.append((foot, (placed(normal) - pivot) / abs(normal)))
     least = placed(cmath.rect(best.centre_distance, best.start_angle))
     return Swing(picture, pivot, lowest, least, best.prime_radius, tuple(planes))
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import numpy as np
 import pytest
 
 from exporters.documents.topics import calculate
@@ -285,6 +286,24 @@ def test_a_given_speed_adds_scales_of_time() -> None:
     assert after("μt") == pytest.approx(math.radians(2) / omega, rel=1e-5)
     assert after("μv") == pytest.approx(after("μS'") * omega, rel=1e-5)
     assert after("μa") == pytest.approx(after("μS''") * omega**2 / 1000, rel=1e-5)
+
+
+def test_the_angle_of_the_return_has_its_tangents() -> None:
+    """They touch the diagram where S' is least, by dense samples of the cosine, and bound where the axis stands."""
+    part = {"kind": "cam", "follower": "roller", "follower_radius": 5.0, "lift": 20.0, "phases": RISE_AND_RETURN,
+            "least_transmission_angle_deg": 80.0, "least_return_transmission_angle_deg": 70.0}  # fmt: skip
+    canvas = plan_build(cam_scene(part, **ROUGH), "t", [], []).sheets[0].canvas
+    u = np.linspace(0, 1, 20_001)
+    fall = 10 * (1 + np.cos(np.pi * u)), -10 * np.pi * np.sin(np.pi * u) / math.radians(120)
+    up = 20 * (10 * u**3 - 15 * u**4 + 6 * u**5), 600 * u**2 * (1 - u) ** 2 / math.radians(120)
+    least = max(
+        float((np.abs(v) * math.tan(math.radians(gamma)) - s).max()) for (s, v), gamma in ((up, 80), (fall, 70))
+    )
+    texts = [t.text for t in canvas.texts]
+    assert "γ'min = 70°" in texts
+    assert f"r0 = {least:.2f}" in texts
+    rocker = plan_build(cam_scene(ROCKER | {"least_return_transmission_angle_deg": 0.0}, **ROUGH), "t", [], [])
+    assert not any("γ'" in t.text for t in rocker.sheets[0].canvas.texts)
 
 
 LEGAL: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {

@@ -196,6 +196,71 @@ def test_the_least_roller_cam_keeps_its_convex_radius() -> None:
     assert least_convex(prime) == pytest.approx(12.0, rel=1e-5)
 
 
+def steepest(parts: tuple[np.ndarray, ...], s0: float, e: float) -> float:
+    """The greatest pressure angle of a sliding follower over samples of its motion, degrees."""
+    return float(np.degrees(np.abs(np.arctan((parts[1] - e) / (s0 + parts[0]))).max()))
+
+
+@pytest.mark.parametrize(("rise", "back", "e"), [(60.0, 50.0, 6.0), (60.0, 15.0, 6.0), (70.0, 65.0, -4.0)])
+def test_the_return_may_have_a_transmission_angle_of_its_own(rise: float, back: float, e: float) -> None:
+    """The cam is the least of which both hold by dense samples; the finding tells which does not of a smaller one."""
+    keys: dict[str, Any] = {"follower_offset": e, "bore_diameter": 0.0, "follower_radius": 2.0,
+                            "least_transmission_angle_deg": rise}  # fmt: skip
+    both = keys | {"least_return_transmission_angle_deg": back}
+    prime = part_of(cam(base_circle_radius=None, **both)).circles["prime_circle_diameter"] / 2
+    s0 = math.sqrt(prime**2 - e**2)
+    falls = [rise - (90 - steepest(RISE, s0, e)), back - (90 - steepest(FALL, s0, e))]
+    assert max(falls) == pytest.approx(0.0, abs=1e-4)
+    # half a millimetre below it the one that asked for it falls short, and the cam says which
+    small = part_of(cam(base_circle_radius=prime - 2.5, **both))
+    s0 = math.sqrt((prime - 0.5) ** 2 - e**2)
+    for code, parts, asked in (("", RISE, rise), ("return_", FALL, back)):
+        kept = 90 - steepest(parts, s0, e)
+        told = finding(small, f"{code}transmission_angle_not_kept")
+        assert told == (None if kept >= asked else (pytest.approx(kept, abs=1e-4), asked))
+    assert any(f.code.endswith("transmission_angle_not_kept") for f in small.findings)
+
+
+@pytest.mark.parametrize("back", [0.0, 30.0, 50.0, None])
+def test_a_swinging_roller_keeps_the_angle_of_its_rise_alone_where_it_is_asked_to(back: float | None) -> None:
+    """tan nu = (L (1 + psi') - d cos psi) / (d sin psi) over dense samples: the least arm angle at which it holds."""
+    arm, distance, rise = 70.0, 95.0, 50.0
+    swing = {"centre_distance": distance, "arm_length": arm}
+    part = part_of(cam(lift=None, swing_deg=20.0, oscillating=swing, base_circle_radius=None, bore_diameter=0.0,
+                       least_transmission_angle_deg=rise, least_return_transmission_angle_deg=back,
+                       follower_radius=3.0))  # fmt: skip
+    unit = math.radians(20.0) / H
+    limits = {"rise": 90 - rise, "return": 90 - (rise if back is None else back)}
+
+    def holds(start: float) -> bool:
+        for (s, v, _), most in zip((RISE, FALL), limits.values(), strict=True):
+            psi = start + unit * s
+            steep = np.abs(np.arctan((arm * (1 + unit * v) - distance * np.cos(psi)) / (distance * np.sin(psi))))
+            if np.degrees(steep).max() > most:
+                return False
+        return True
+
+    starts = np.radians(np.arange(1.0, 60.0, 0.01))
+    least = next(start for start in starts if holds(start))
+    prime = math.sqrt(distance**2 + arm**2 - 2 * distance * arm * math.cos(least))
+    assert part.circles["prime_circle_diameter"] / 2 == pytest.approx(prime, abs=0.02)
+
+
+def test_the_angle_of_the_return_is_blamed_where_it_asks_for_too_much() -> None:
+    raw = scene_of(cam(lift=None, swing_deg=20.0, oscillating={"arm_length": 70.0}, base_circle_radius=None,
+                       bore_diameter=0.0, least_transmission_angle_deg=50.0))  # fmt: skip
+    key = "parts.p.least_return_transmission_angle_deg"
+    found = refused(with_key(raw, key, 89.9))
+    assert found is not None
+    assert (found.key, found.code) == (key, "no_axis_keeps_angle")
+    assert found.nearest is not None
+    assert isinstance(found.nearest.value, float)
+    assert refused(with_key(raw, key, found.nearest.value)) is None
+    assert refused(with_key(raw, key, found.nearest.value * 1.001)) is not None
+    flat = scene_of(cam(follower="flat", follower_radius=None, base_circle_radius=None, least_curvature_radius=5.0))
+    check_refused(flat, key, 20.0, "flat_has_no_return_angle", 0.0)
+
+
 CAM_REFUSED: list[tuple[Raw, str, object, str, object]] = [
     (scene_of(cam(base_circle_radius=None)), "base_circle_radius", GONE, "base_circle_missing", ...),
     (scene_of(cam(follower="flat", follower_radius=None, base_circle_radius=None)), "least_transmission_angle_deg",
