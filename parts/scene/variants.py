@@ -152,14 +152,14 @@ def _with(scene: dict[str, Any], values: dict[str, Any]) -> dict[str, Any]:
 def _names(axis: Axis) -> list[str]:
     """Of each value ``key=value`` as a part of a folder's name; with a hash where letters had to go.
 
-    So has one that differs from a value before it in case alone: folders of some systems do not.
+    So has one that differs from a value before it in case alone, or ends in a dot: folders of some systems do not.
     """
     names: list[str] = []
     taken = set[str]()
     for value in axis.values:
         told = f"{axis.key}={value}"
         name = re.sub(r"[^A-Za-z0-9.+=_-]", "_", told)[:_MOST_LETTERS]
-        if name != told or name.lower() in taken:
+        if name != told or name.lower() in taken or name.endswith("."):
             name = f"{name}-{hashlib.sha256(told.encode()).hexdigest()[:8]}"
         taken.add(name.lower())
         names.append(name)

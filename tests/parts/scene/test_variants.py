@@ -46,6 +46,8 @@ def test_a_step_of_a_half_finds_the_whole_numbers_of_a_key_that_takes_no_others(
 
 
 def test_every_choice_once_in_a_folder_of_its_own() -> None:
+    (dotted,) = variants(SCENE, axes_of(["gear.title=No."], SCENE))
+    assert not dotted.name.endswith(".")
     axes = axes_of(["gear.number_of_teeth=8:10", "other.module=1,2.5", "gear.material=ÄÖ/..,steel"], SCENE)
     found = list(variants(SCENE, axes))
     # centred on d and on D: two splines, which were refused for one listed twice
