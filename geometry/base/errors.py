@@ -24,10 +24,12 @@ class Nearest(Record):
 
     ``side``: an upper limit (``at_most``), a lower one (``at_least``), a value of its own, the word that was
     probably ``meant``, a key of ours with the value that says the ``same``, or what the key is written ``like``.
+    ``too``: other things that had the given value too, and work with this one only.
     """
 
     value: float | str | bool | list[float] | None
     side: Side = "exactly"
+    too: tuple[str, ...] = ()
 
     def scaled(self, factor: float) -> Nearest:
         """The same limit in another unit, rounded again to the side that works."""

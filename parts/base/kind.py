@@ -6,7 +6,7 @@ A kind is an instance of a subclass, registered by one row of ``parts/base/kinds
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError
@@ -218,12 +218,12 @@ class Kind(Generic[K, T]):
         source: str,
         place: str,
         make: Callable[[K], T],
-        fits: Callable[[K, T], object] = lambda keys, thing: None,
+        fits: Callable[[K, T], Iterable[str]] = lambda keys, thing: (),
     ) -> SceneError:
         """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build.
 
         ``make``: its thing as it is in its scene; ``fits`` refuses keys and their thing where what hangs on the part
-        does not take them: what it offers for the same key is tried then.
+        does not take them: what it offers for the same key is tried then; it names the parts that must change too.
         """
         from parts.base.offers import Trial
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.errors import TOLD, GeometryError, Nearest, ParameterError
 from geometry.base.nearest import nearest
+from geometry.base.record import replace
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import as_typed, tried, unit_of, value_at
 
@@ -26,14 +27,15 @@ class Trial(Generic[K, T]):
     """Other values of one key of a part at a time.
 
     ``make``: its thing as it is in its scene; ``fits`` refuses keys and their thing where what hangs on the part does
-    not take them; ``solid``: made too, where only that tells whether a value builds, as what a chamfer leaves of edges.
+    not take them, and names the parts that must change as it does; ``solid``: made too, where only that tells whether
+    a value builds, as what a chamfer leaves of edges.
     """
 
     def __init__(
         self,
         keys: K,
         make: Callable[[K], T],
-        fits: Callable[[K, T], object],
+        fits: Callable[[K, T], Iterable[str]],
         solid: Callable[[K, T, float], object] | None,
     ) -> None:
         self._keys, self._make, self._fits, self._solid = keys, make, fits, solid
@@ -47,8 +49,14 @@ class Trial(Generic[K, T]):
         # a part may reckon with another number than the one in its file: the shift in the transverse section
         if isinstance(typed.value, float) and isinstance(given := value_at(self._keys, typed.name), float):
             error.value = given
-        error.offer(lambda: self._cure(typed, one_for_both=typed is not refusal))
+        error.offer(lambda: self._with_others(typed, self._cure(typed, one_for_both=typed is not refusal)))
         return error
+
+    def _with_others(self, told: ParameterError, found: Nearest | None) -> Nearest | None:
+        """What works with the parts that it works with only if they have it too."""
+        if found is None or found.side in TOLD:
+            return found
+        return replace(found, too=tuple(self._fits(*self._made(told.name, found.value))))
 
     def _cure(self, told: ParameterError, *, one_for_both: bool) -> Nearest | None:
         """The value that builds and that all that hangs on the part takes."""

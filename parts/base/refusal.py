@@ -170,6 +170,8 @@ def explained(refusal: SceneError) -> Message:
         why = message("{why}; {remedy}", why=why, remedy=letter)
     if (nearest := refusal.nearest) is not None:
         why = message("{why}; {remedy}", why=why, remedy=_remedy(nearest, refusal))
+        if nearest.too:
+            why = message("{why}, if {parts} has it too", why=why, parts=", ".join(nearest.too))
     return why if refusal.rulers is None else _following(why, refusal.rulers)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -558,13 +558,47 @@ def _thing(
     return thing_of(part, keys, specs, scene.mates, part_of)
 
 
-def _check_fit(scene: SceneFile, specs: dict[str, MaterialKeys], part: str, keys: MaterialKeys, thing: object) -> None:
-    """Refuse other keys of a part that what hangs on it does not take."""
+def _check_fit(
+    scene: SceneFile, specs: dict[str, MaterialKeys], part: str, keys: MaterialKeys, thing: object
+) -> Iterable[str]:
+    """Refuse other keys of a part that what hangs on it does not take; names the parts that must change with it."""
     from parts.base.mate import End
     from parts.scene.checks import check_fit
 
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
-    check_fit(part, {part: End(keys, thing)}, _changed(scene.origins, specs, part, keys), scene.mates, part_of)
+    ends, changed = {part: End(keys, thing)}, _changed(scene.origins, specs, part, keys)
+    try:
+        check_fit(part, ends, changed, scene.mates, part_of)
+    except (GeometryError, SceneError):
+        alike = _alike(scene, changed, specs, part, part_of)
+        if not alike:
+            raise
+        for name in (part, *alike):
+            check_fit(name, ends, changed | alike, scene.mates, part_of)
+        return alike
+    return ()
+
+
+def _alike(
+    scene: SceneFile, changed: dict[str, MaterialKeys], specs: dict[str, MaterialKeys], part: str,
+    part_of: Mapping[str, str],
+) -> dict[str, MaterialKeys]:  # fmt: skip
+    """Parts that mates join to one whose keys have changed, with its new values where they had the same as it."""
+    old, new = specs[part], changed[part]
+    values = {key: getattr(new, key) for key in new.__struct_fields__ if getattr(new, key) != getattr(old, key)}
+    found: dict[str, MaterialKeys] = {}
+    joined = [part]
+    for name in joined:
+        for mate in scene.mates:
+            pair = part_of[mate.first], part_of[mate.second]
+            for other in pair if name in pair else ():
+                spec = specs[other]
+                if other not in joined and (
+                    had := {key: v for key, v in values.items() if getattr(spec, key, None) == getattr(old, key)}
+                ):
+                    found[other] = msgspec.structs.replace(spec, **had)
+                    joined.append(other)
+    return found
 
 
 def _changed(

@@ -7,6 +7,7 @@ one step further does not (one of whole numbers, else a thousandth); the text is
 from __future__ import annotations
 
 import copy
+import itertools
 import math
 import random
 import re
@@ -69,8 +70,16 @@ def judged(raw: Raw, refusal: SceneError) -> list[str]:
     if nearest is None or nearest.side in TOLD:
         return faults
     place = place_of(refusal.key)
-    better = without(raw, place) if nearest.value is None else put(raw, place, nearest.value)
-    again = refusal_of(better)
+    # it may take others that had the wrong value as well
+    places = [place, *(("parts", other, *place[2:]) for other in nearest.too)]
+
+    def with_all(value: object) -> Raw:
+        made = raw
+        for each in places:
+            made = without(made, each) if value is None else put(made, each, value)
+        return made
+
+    again = refusal_of(with_all(nearest.value))
     if again is not None:
         faults.append(f"{english}: then {again}")
     numeric = isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool)
@@ -78,7 +87,7 @@ def judged(raw: Raw, refusal: SceneError) -> list[str]:
         whole = isinstance(nearest.value, int)
         step = 1 if whole else 1e-3 * max(abs(nearest.value), module_of(raw, place))  # type: ignore[arg-type]
         beyond = nearest.value + (step if nearest.side == "at_most" else -step)  # type: ignore[operator]
-        if refusal_of(put(raw, place, beyond)) is None:
+        if refusal_of(with_all(beyond)) is None:
             faults.append(f"{english}: {beyond} builds too")
     return faults
 
@@ -97,6 +106,34 @@ def test_what_is_offered_builds_and_one_step_further_does_not(share: int, turn: 
     """A sixteenth of the scenes at a time: they are made when a test asks for them, not at collection."""
     faults = [f"{name}: {fault}" for name in sorted(scenes())[share::16] for fault in faults_of(name, turn)]
     assert faults == []
+
+
+TOOTHED: Raw = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 5.0}
+OVAL: Raw = {"kind": "noncircular_gear", "centrode": "oval", "module": 2.0, "number_of_teeth": 42, "axis_ratio": 2.5}
+PINS: Raw = {"number_of_pins": 10, "pin_circle_diameter": 60.0, "pin_diameter": 18.8}
+
+
+@pytest.mark.parametrize(
+    ("kind", "parts", "key"),
+    [
+        ("external_gear_pair", [TOOTHED | {"basic_rack": {"tip_radius_coefficient": 0.6}}] * 3,
+         "basic_rack.tip_radius_coefficient"),
+        ("noncircular_gear_pair", [OVAL, OVAL | {"role": "mate"}], "axis_ratio"),
+        ("lantern_pair", [{"kind": "lantern_wheel"} | PINS, {"kind": "lantern_gear", "number_of_teeth": 30} | PINS],
+         "pin_diameter"),
+    ],
+)  # fmt: skip
+def test_what_mates_have_alike_is_cured_in_all_of_them(kind: str, parts: list[Raw], key: str) -> None:
+    """Nothing was offered: the mate, which had the wrong value too, did not take the right one."""
+    names = "abc"[: len(parts)]
+    mates = [{"kind": kind, "first": one, "second": other} for one, other in itertools.pairwise(names)]
+    raw = {"parts": dict(zip(names, parts, strict=True)), "mates": mates, "exports": [{"format": "svg"}]}
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert refusal.key == f"parts.a.{key}"
+    assert refusal.nearest is not None
+    assert refusal.nearest.too == tuple(names[1:])
+    assert judged(raw, refusal) == []
 
 
 def faults_of(name: str, turn: int) -> list[str]:
