@@ -184,8 +184,16 @@ def flank_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
             film, told = own, "{Z_LvR#}"
             page.add("flank_factor", own, "", source, index, given=True)
         hardened = _hardening(page, rated, index)
-        value = limit * life * film * hardened
-        page.add("contact_strength", value, f"{{sigma_Hlim#}} * {{Z_NT#}} * {told} * {{Z_W#}}", f"{_PART_2}, 5", index)
+        size = each(keys.contact_size_factor)[index - 1]
+        page.add("contact_size_factor", size, gear=index, given=True)
+        value = limit * life * film * hardened * size
+        page.add(
+            "contact_strength",
+            value,
+            f"{{sigma_Hlim#}} * {{Z_NT#}} * {told} * {{Z_W#}} * {{Z_X#}}",
+            f"{_PART_2}, 5",
+            index,
+        )
         if loaded:
             stress = rated.value(page, f"sigma_H{index}")
             page.add("contact_safety", value / stress, "{sigma_HG#} / {sigma_H#}", f"{_PART_2}, 5", index)

@@ -128,6 +128,9 @@ class LoadKeys(DrivenKeys, kw_only=True):
         ]
         | None
     ) = None
+    contact_size_factor: Annotated[
+        _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Z_X of ISO 6336-2{_BOTH}")
+    ] = 1.0
     hardening_factor: (
         Annotated[
             _Factor | Annotated[list[_Factor], _TWO],

@@ -97,6 +97,7 @@ def test_only_rounding_is_taken_for_what_was_typed() -> None:
         ("inv(alpha)", "inv alpha"),
         ("sqrt(a**2 + b**3)", "√(a² + b³)"),
         ("cbrt(x)", "∛(x)"),
+        ("q**(1 / (a + b)) * c**2", "q^(1/(a + b))·c²"),
     ],
 )
 def test_formulas_are_printed_as_they_are_written_by_hand(formula: str, printed: str) -> None:
