@@ -7,13 +7,16 @@ their kind is written; readers (exporters/formats/reading.py) when one is read.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
+from msgspec import structs
 
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
+from geometry.base.nearest import nearest
 from geometry.base.placement import Placement3
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import DRAWN_ROUNDING, LEAST_SEGMENT_MM, written_decimals
@@ -43,6 +46,8 @@ BOUNDS = ("exact", "certified", "sampled")
 Places = Sequence[tuple[str, str, Placement3, str | None]]
 # more edges than any receiving program opens; one file of them is some 300 MB
 _MOST_EDGES = 4_000_000
+# where slices and chords are counted, so far above their estimate a tolerance is tried, and sought so near
+_ABOVE, _NEAR = 1.05, 0.05
 # of these so many times fewer: writing and reading back takes 1.1 kB of memory an edge of an STL, 2.8 of a 3MF's text
 _HEAVIER = {"stl": 2, "3mf": 4}
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
@@ -193,7 +198,16 @@ def _check_count(content: Content, edges: int, order: int) -> None:
     """Refuse more edges than a file can carry, whose number goes by the tolerance's root of an ``order``."""
     most = _MOST_EDGES / _HEAVIER.get(content.kind.name, 1)
     if edges > most:
-        works = Nearest(rounded(content.tolerance * (edges / most) ** order, up=True, digits=6))
+        far = rounded(content.tolerance * (edges / most) ** order, up=True, digits=6)
+        works: Nearest | Callable[[], Nearest | None] = Nearest(far)
+        if content.kind.is_solid and not content.body.is_faced and content.body.twisted_profiles():
+            # slices and chords are fewer at once
+
+            def fits(tolerance: float) -> bool:
+                return bool(shape_of(replace(content, export=structs.replace(content.export, tolerance=tolerance))))
+
+            near = content.tolerance * edges / most
+            works = partial(nearest, fits, content.tolerance, [_ABOVE * near, far], digits=8, share=_NEAR)
         raise ParameterError("tolerance", content.tolerance, "too_many_edges", works, edges=edges)
 
 

@@ -100,7 +100,8 @@ def test_a_mesh_that_would_take_a_laptop_s_memory_is_refused_before_it_is_made(f
     # two triangles on each piece of each slice
     triangles = 2 * sum(len(a.geometry) * abs(job.part.body(0.0).twist(w)) / a.turn_step
                         for a in chords for w in job.part.body(0.0).walls)  # fmt: skip
-    assert triangles < {"stl": 4e6, "3mf": 2e6}[form]
+    most = {"stl": 4e6, "3mf": 2e6}[form]
+    assert 0.85 * most < triangles < most
 
 
 @pytest.mark.parametrize("more", [{}, {"helix_angle_deg": 25.0}, {"helix_angle_deg": 25.0, "bore_diameter": 5.0}])
