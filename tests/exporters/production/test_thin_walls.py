@@ -88,6 +88,7 @@ def test_more_edges_than_a_file_carries_are_refused_with_what_leaves_fewer(
             shape_of(job)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("form", ["stl", "3mf"])
 def test_a_mesh_that_would_take_a_laptop_s_memory_is_refused_before_it_is_made(form: str, tmp_path: Path) -> None:
     """Module 0.01 on a face of 10 mm: a 3MF of 8 million triangles took 11 GB; what is offered is of 3 GB at most."""

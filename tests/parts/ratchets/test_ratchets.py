@@ -289,6 +289,7 @@ _CAUGHT: list[tuple[Keys, Keys]] = [
 ]  # fmt: skip
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("wheel", "pawl"), _CAUGHT)
 def test_a_pawl_that_the_face_does_not_let_out_is_refused(wheel: Keys, pawl: Keys) -> None:
     """By polygons: beyond the angle that is offered some turn of the wheel leaves it no place at all, below it does."""

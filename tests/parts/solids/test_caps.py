@@ -290,6 +290,7 @@ def test_round_is_what_has_all_corners_on_one_circle() -> None:
     assert not is_round(replace(even, vertices=even.vertices + 1e-9))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("teeth", [35, 50])
 def test_no_triangle_between_digits_is_turned_over_by_the_numbers_of_a_file(teeth: int, tmp_path: Path) -> None:
     """Corners of three strokes in one line: by fractions of the float32 numbers that the STL has."""

@@ -203,6 +203,7 @@ _JAMS = (
 )  # fmt: skip
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", [*_JAMS, Case(30, 7, 30), Case(24, 6, 17)])
 def test_a_standing_mate_gives_way_to_the_first_tooth_or_that_jams_where_it_is_told(case: Case) -> None:
     """Just beyond the first touch of polygons a mate that jams is free nowhere near where it is to be turned to."""
