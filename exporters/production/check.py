@@ -22,8 +22,8 @@ from parts.texts.checks import CLOSE, OFF_CENTRE, called, condition_message, ove
 from parts.texts.findings import findings_told
 
 if TYPE_CHECKING:
-    from geometry.base.findings import Finding
     from geometry.gears.mesh.search import PairContact
+    from parts.base.mate import Frames
     from parts.scene.steps import StepSpec
     from parts.scene.train import Train
     from parts.scene.workspace import Struck
@@ -77,8 +77,11 @@ def scene_checks(
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
                 found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
-            if left := _driven(mate, placing.train, max(turns, default=0.0)):
-                found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
+            if way := _way(mate, placing.train, max(turns, default=0.0)):
+                if left := mate.mating.driven(*way):
+                    found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
+                for code, numbers in mate.mating.blocked(*way).items():
+                    found.setdefault("conditions", []).append(_condition(code, False, numbers, mate, told))
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:
@@ -192,22 +195,22 @@ def _mate(mate: PlacedMate, told: _Teller, *, contact: bool) -> dict[str, Any]:
     return found
 
 
-def _driven(mate: PlacedMate, train: Train | None, turns: float) -> tuple[Finding, ...]:
-    """What is not kept any more of two that touch where the drives have run as far as the scene asks, or as they stand.
+def _way(mate: PlacedMate, train: Train | None, turns: float) -> tuple[Frames, Frames] | None:
+    """The frames of two that touch where the drives run as far as the scene asks, or as they stand; None: nobody asks.
 
     ``turns`` of the first: so fine are the steps on the way that each tells how it has turned.
     """
     if not isinstance(mate.mating, Touching) or (train is None and not mate.mating.stands_in_mesh):
-        return ()
+        return None
     import numpy as np
 
     if train is None:
         frames = (one.scene_from_part for one in (mate.first, mate.second))
         first, second = ((np.array([f.rotation]), np.array([f.translation])) for f in frames)
-        return mate.mating.driven(first, second)
+        return first, second
     t = np.linspace(0.0, 1.0, 2 + math.ceil(_STEPS_A_TURN * turns) * mate.mating.stands_in_mesh)
     first, second = (train.placed(one.id, t) for one in (mate.first, mate.second))
-    return mate.mating.driven(first, second)
+    return first, second
 
 
 def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:

@@ -241,8 +241,12 @@ class Mating(Joined, kw_only=True):
         return False
 
     def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
-        """Conditions that are not kept where both stand as drives begin and end, or on their way."""
+        """What is poor where both stand as drives begin and end, or on their way."""
         return ()
+
+    def blocked(self, first: Frames, second: Frames) -> Mapping[str, dict[str, float]]:
+        """Conditions that both do not keep on the way of the drives: codes with their numbers."""
+        return {}
 
     def quantities(self) -> dict[str, Any]:
         """What the calculation says, for reports."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
@@ -103,17 +104,15 @@ class RatchetMating(Touching):
         """It is asked for all of the way."""
         return True
 
-    def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
+    def blocked(self, first: Frames, second: Frames) -> Mapping[str, dict[str, float]]:
         """Whether drives turn the wheel where the pawl holds it: farther back than to the tooth behind it."""
         import numpy as np
-
-        from geometry.base.findings import Finding
 
         turned = self._sense * np.unwrap(np.arctan2(first[0][:, 1, 0], first[0][:, 0, 0]))
         back = math.degrees(float((turned[0] - turned).max()))
         free = math.degrees(self._left(self._sense * float(turned[0]), math.radians(self.direction_deg)))
         # a thousandth of a degree is what a scene's numbers leave
-        return (Finding("turns_against_pawl", back, free),) if back > free + 1e-3 else ()
+        return {"turns_against_pawl": {"value": back, "limit": free}} if back > free + 1e-3 else {}
 
     def quantities(self) -> dict[str, Any]:
         """Sizes of the pair, mm and degrees; how far a wheel at rotation 0 turns back until this pawl holds it."""
