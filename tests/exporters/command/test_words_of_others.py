@@ -74,6 +74,7 @@ def test_a_calculation_tells_it_too(capsys: pytest.CaptureFixture[str]) -> None:
         (_SPUR | {"module": 2.0}, "hub_diameter", 12.0, "hub.diameter"),
         (_SPUR | {"module": 2.0}, "n_spokes", 5, "spokes.count"),
         (_SPUR | {"module": 2.0}, "backlash", 0.1, "circumferential_thinning"),
+        (_WORM, "backlash", 0.1, "axial_thinning"),
         (_SPUR | {"module": 2.0}, "axle_hole", 5.0, "bore_diameter"),
         (_SPUR | {"module": 2.0}, "root_fillet", 0.2, "basic_rack.tip_radius_coefficient"),
         (_SPUR | {"module": 2.0}, "quality", 7, "accuracy"),
