@@ -153,7 +153,7 @@ def _sector_steps(page: Sheet, pair: Pair | RackPair, face: CommonFace) -> None:
     whole = abs(pair.effective_contact_ratio - pair.contact_ratio) <= 1e-9
     overlap = " + {eps_beta}" if face.helix.angle else ""
     formula = f"({{z_s#}} - 1 + {'{eps}' if whole else '{eps_eff}'}{overlap}) * 360 / {{z#}}"
-    for place, mesh in sector_meshes(pair, math.copysign(face.overlap_ratio, face.helix.signed_angle)).items():
+    for place, mesh in sector_meshes(pair, face.overlap_ratio).items():
         index = place + 1
         page.add("sector_mesh_angle_deg", math.degrees(mesh.mesh_angle), formula, "", index)
         if isinstance(pair, RackPair):

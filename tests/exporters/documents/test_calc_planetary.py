@@ -235,6 +235,20 @@ def test_a_ratio_that_a_scheme_does_not_have_leads_to_one_that_has(ratio: float,
     assert (1 - carried) ** (1 if len(keys) == 1 else -1) == pytest.approx(ratio, rel=5e-3)
 
 
+def test_a_ratio_of_other_links_leads_to_them() -> None:
+    """Willis: 1 + z1 / z3 where the ring drives the carrier and the sun is held."""
+    told = refused("ratio=1.3").partition("some have it with ")[2].partition(";")[0]
+    assert told == 'driver = "second", held = "first"'
+    row = calculated("ratio=1.3", "driver=second", "held=first")["sets"][0]
+    assert 1 + row["z_1"] / row["z_3"] == pytest.approx(1.3, rel=5e-3)
+
+
+def test_a_scheme_that_is_told_takes_the_module_of_the_second_mesh() -> None:
+    asked = ["ratio=3", "second_module=2"]
+    told = refused("scheme=two_internal", *asked).partition("some have it with ")[2].partition(";")[0]
+    assert calculated(told.replace('"', "").replace(" = ", "="), *asked)["values"]["sets_found"] >= 1
+
+
 def test_a_ratio_is_told_in_six_digits_where_the_tolerance_takes_them() -> None:
     """Before: 12.4615384615, which is 162/13."""
     assert refused("ratio=1000").endswith("; 12.4615 works")

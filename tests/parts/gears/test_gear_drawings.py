@@ -422,13 +422,13 @@ def test_three_lines_show_which_way_the_thread_of_a_worm_runs(hand: str, starts:
     assert steps[0].real > 0.5
 
 
-def test_a_sector_is_drawn_with_its_teeth_upwards() -> None:
-    """The face has its outline as the files have it, turned; the section has teeth above and the hub below."""
-    keys = GEAR | {
-        "number_of_teeth": 40,
-        "bore_diameter": 8.0,
-        "sector": {"teeth": 9, "rest": "cut", "corner_radius": 1.0},
-    }
+@pytest.mark.parametrize("first", [-4, 0, 7])
+def test_a_sector_is_drawn_with_its_teeth_upwards(first: int) -> None:
+    """The face has its outline as the files have it, turned, wherever the run stands there; the section has teeth above
+    and the hub below.
+    """
+    sector = {"teeth": 9, "rest": "cut", "corner_radius": 1.0, "first_tooth": first}
+    keys = GEAR | {"number_of_teeth": 40, "bore_diameter": 8.0, "sector": sector}
     section, face = drawing_of(keys).views
     assert {r.name: r.value for r in face.rounds} == pytest.approx(
         {"tip_diameter": 84.0, "sector.hub_diameter": 18.75, "sector.corner_radius": 1.0}

@@ -173,3 +173,13 @@ def test_the_turn_that_is_told_fits_where_it_is_typed(
     assert "stands turned" not in fits
     assert "pair twin - high: a_w = 120.00000 mm" in fits
     assert float(re.findall(r"twin - high.*CONTACT, least gap (\S+) mm", fits)[0]) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_what_is_carried_has_no_key_of_its_turn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It turns as other mates have it: the turn that fits is its own."""
+    file = tmp_path / "set.toml"
+    file.write_text(TWO_MESHES.format(kind="carried", place=PLACES["fixed"], turn=""))
+    assert main(["check", str(file)]) == 1
+    said = capsys.readouterr().out
+    assert re.search(r"high stands turned by \S+ deg, rotation_deg = \S+ makes it fit twin", said)
+    assert "has rotation_deg" not in said

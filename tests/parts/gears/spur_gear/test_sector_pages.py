@@ -77,16 +77,20 @@ def test_pins_need_two_opposite_spaces(z: int, sector: dict[str, Any], pins: boo
     ("table", "key"),
     [
         (GEAR | {"sector": {"teeth": 4}, "teeth_spanned": 5}, "teeth_spanned"),
+        (GEAR | {"sector": {"teeth": 2}, "teeth_spanned": 3}, "teeth_spanned"),
         (GEAR | {"sector": {"teeth": 4}, "pin_diameter": 3.5}, "pin_diameter"),
+        # four teeth of a ring have three whole spaces between them
+        (RING | {"sector": {"teeth": 4}, "spaces_spanned": 4}, "spaces_spanned"),
     ],
 )
 def test_what_a_sector_has_no_teeth_for_is_refused(table: dict[str, Any], key: str) -> None:
+    told = ring_sheet if "rounded_root" in table else sheet
     with pytest.raises(SceneError, match=rf"\.{key} =") as refused:
-        sheet(table)
+        told(table)
     cure = refused.value.nearest
     assert cure is not None
     changed = {k: v for k, v in table.items() if k != key} | ({} if cure.value is None else {key: cure.value})
-    assert values(sheet(changed))["sector_teeth"] == 4
+    assert values(told(changed))["sector_teeth"] == table["sector"]["teeth"]
 
 
 def test_a_run_of_a_ring_spans_its_spaces() -> None:
