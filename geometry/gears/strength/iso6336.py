@@ -8,8 +8,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
-from geometry.gears.strength.materials import Group
+if TYPE_CHECKING:
+    from geometry.gears.strength.materials import Group
 
 # K_1 and K_2 of method C by the accuracy grade of ISO 1328, straight teeth and helical ones; ISO 6336-1, table 8
 GRADES = range(3, 13)
@@ -119,7 +121,7 @@ def deep_tooth_factor(contact_ratio: float, grade: int | None) -> float:
 
 def lubricant_coefficient(limit: float) -> float:
     """C_ZL by sigma_Hlim of the softer gear; ISO 6336-2, 12."""
-    return min(max(limit, 850.0), 1200.0) / 4375 + 0.6357 if 850 <= limit <= 1200 else 0.83 if limit < 850 else 0.91
+    return 0.83 if limit < 850 else 0.91 if limit > 1200 else limit / 4375 + 0.6357
 
 
 def lubricant_factor(limit: float, viscosity: float) -> float:

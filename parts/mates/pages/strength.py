@@ -93,6 +93,7 @@ def _rated(page: Sheet, pair: ExternalPair | InternalPair, keys: Any, helical: H
         root_allowed(page, rated, loaded=torque is not None)
     if torque is not None:
         _torques(page, rated, torque)
+        _summary(page)
     return page
 
 
@@ -213,6 +214,17 @@ def _torques(page: Sheet, rated: Rated, torque: float) -> None:
         page.sections.pop()
 
 
+def _summary(page: Sheet) -> None:
+    """Stresses, safeties and torques of both gears side by side: what the page knows of either."""
+    both = ([page.known.get(f"{key}{index}", page.known.get(key)) for index in (1, 2)] for key in _COLUMNS)
+    columns = [(one, two) for one, two in both if one is not None and two is not None]
+    heads = [(one.symbol.removesuffix("1"), one.unit) for one, _ in columns]
+    rows = [[index, *(float(column[index - 1].value) for column in columns)] for index in (1, 2)]
+    page.table("strength", N_("Both gears"), [(N_("gear"), ""), *heads], rows)
+
+
+# the keys of what stands in it
+_COLUMNS = ("sigma_H", "sigma_HG", "S_H", "sigma_F", "sigma_FG", "S_F", "T_H", "T_F")
 _TITLES = {
     "ISO 6336": N_("Load capacity by ISO 6336:2019"),
     "ISO 6336:2006": N_("Load capacity by ISO 6336:2006"),

@@ -5,6 +5,8 @@ Numbers of KISSsoft and of ISO/TR 6336-30 stand with the textbooks, the critical
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import math
 import subprocess
@@ -128,6 +130,30 @@ def test_the_torque_that_is_allowed_leaves_the_least_safety(method: str) -> None
     shares = [found["contact_safety"][g] / 1.1 for g in ("first", "second")]
     shares += [found["bending_safety"][g] / 1.4 for g in ("first", "second")]
     assert min(shares) == pytest.approx(1, rel=1e-12)
+
+
+def test_both_gears_stand_in_a_table() -> None:
+    keys = (*PAIR, "torque=30", "contact_limit=1300", "bending_limit=400")
+    found = values(*keys)
+    rows = list(csv.DictReader(io.StringIO(calculate("strength", keys, "csv", "en"))))
+    assert [*rows[0]] == [
+        "gear",
+        "σ_H (MPa)",
+        "σ_HG (MPa)",
+        "S_H",
+        "σ_F (MPa)",
+        "σ_FG (MPa)",
+        "S_F",
+        "T_H (N*m)",
+        "T_F (N*m)",
+    ]
+    for row, gear in zip(rows, ("first", "second"), strict=True):
+        assert float(row["S_F"]) == pytest.approx(found["values"]["bending_safety"][gear], rel=1e-6)
+        assert float(row["T_H (N*m)"]) == pytest.approx(found["values"]["contact_torque"][gear], rel=1e-6)
+    # GOST has one contact stress of both
+    keys = (*PAIR, "torque=30", "contact_limit=1300", GOST)
+    rows = list(csv.DictReader(io.StringIO(calculate("strength", keys, "csv", "en"))))
+    assert rows[0]["σ_H (MPa)"] == rows[1]["σ_H (MPa)"]
 
 
 def test_the_load_helps_no_tooth() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 
 import mpmath
@@ -25,6 +26,7 @@ from geometry.gears.strength.root import (
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.ring_tooth import rounded_root_plug
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from geometry.gears.teeth.transverse_ring import transverse_ring
@@ -168,6 +170,18 @@ def nearest_roll(outline: object, point: complex) -> float:
         best = min(rolls, key=lambda r: abs(complex(outline(r)) - point))  # type: ignore[operator]
         low, high = best - (high - low) / 60, best + (high - low) / 60
     return (low + high) / 2
+
+
+def test_the_section_of_a_ring_with_a_rounded_root_lies_on_its_arc() -> None:
+    """From the middle of the arc, off the normal of the tangent, whose angle is 60 degrees, by the radius."""
+    ring = RingGear(2.0, 60, math.radians(20), 1e9, RoundedRoot(1.25, 0.3), 0.2)
+    plug = rounded_root_plug(ring)
+    middle = cmath.rect(plug.corner_radius, math.pi / 60 - plug.corner_angle)
+    touching = middle + 0.6 * cmath.exp(-1j * math.pi / 6)
+    section = root_section(ring)
+    assert section is not None
+    found = section.thickness, section.radius, section.distance
+    assert found == pytest.approx((2 * touching.imag, 0.6, touching.real), rel=1e-12)
 
 
 def test_the_virtual_gear_of_straight_teeth_is_the_gear_itself() -> None:
