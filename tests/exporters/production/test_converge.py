@@ -232,3 +232,16 @@ def test_a_rung_is_made_three_times_and_its_middle_time_told(tmp_path: Path, mon
             assert 0 < rung.measured <= rung.max_error <= rung.tolerance
             assert rung.bytes > 1000
     assert shown == ["g.svg", "g.svg"]
+
+
+@pytest.mark.parametrize(("measured", "code"), [(0.01, 0), (0.0101, 1)])
+def test_a_file_that_is_farther_off_than_it_declares_is_a_failure(
+    measured: float, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rungs = [Rung("g.svg", "svg", 0.02, 0.02, 0.001, 10, 100, 0.1, 0.0),
+             Rung("g.svg", "svg", 0.01, 0.01, measured, 12, 120, 0.1, 0.0)]  # fmt: skip
+    monkeypatch.setattr("exporters.command.converge.ladder", lambda plan, folder: rungs)
+    monkeypatch.setattr("exporters.command.converge.orders", lambda plan: [])
+    parts = {"g": part_keys(Gear(3.0, TEETH, bore=6.0)) | {"kind": "spur_gear"}}
+    scene = write_scene(tmp_path / "s.toml", parts, ({"format": "svg"},))
+    assert run("converge", scene, "--out", tmp_path / "out") == code
