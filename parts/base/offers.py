@@ -53,10 +53,11 @@ class Trial(Generic[K, T]):
         return error
 
     def _with_others(self, told: ParameterError, found: Nearest | None) -> Nearest | None:
-        """What works with the parts that it works with only if they have it too."""
-        if found is None or found.side in TOLD:
-            return found
-        return replace(found, too=tuple(self._fits(*self._made(told.name, found.value))))
+        """What works with the parts that it works with only if they have it too; a word for one alone is none."""
+        if found is None:
+            return None
+        others = tuple(self._fits(*self._made(told.name, found.value)))
+        return None if others and found.side in TOLD else replace(found, too=others)
 
     def _cure(self, told: ParameterError, *, one_for_both: bool) -> Nearest | None:
         """The value that builds and that all that hangs on the part takes."""
