@@ -115,7 +115,7 @@ def test_the_standards_closed_form_is_that_of_a_rack_cut_tooth(teeth: int, shift
 
 
 def test_a_thinner_tooth_has_another_section_than_the_standards_form() -> None:
-    """The negative control, and the point of an exact fillet: 0.1 of the module is 4 % of the bending stress."""
+    """The negative control, and the point of an exact fillet: a tenth of the module is a tenth of Y_F."""
     thin, plain = rack_cut(20, 0.0, 0.2), rack_cut(20, 0.0)
     sections = [root_section(g) for g in (thin, plain)]
     forms = [
