@@ -226,7 +226,7 @@ class PawlShape(Record, dict=True):
 
     @cached_property
     def overrun(self) -> float:
-        """How far the wheel must turn beyond a tooth for the pawl to drop in front of it, rad."""
+        """How far the wheel must turn beyond a tooth for the pawl to drop in front of it, rad; infinite: never."""
         spoke = self.nose - self.pivot
         # the farthest of the face and the nose from the pivot
         if dot(spoke, self.wheel.face_way) <= 0:
@@ -238,11 +238,8 @@ class PawlShape(Record, dict=True):
         if self.wheel.side * cmath.phase((self.edge * turn - self.pivot) / (-normal * turn)) >= 0:
             return found
         # it leaves the face below the edge at last: where that stands as far from the pivot as the nose reaches
-        return min(
-            turn
-            for turn in _both(cmath.phase(self.pivot / normal), (reach + dot(self.edge, normal)) / apart)
-            if turn >= 0
-        )
+        turns = _both(cmath.phase(self.pivot / normal), (reach + dot(self.edge, normal)) / apart)
+        return min((turn for turn in turns if turn >= 0), default=math.inf)
 
     @cached_property
     def room(self) -> float:
@@ -395,6 +392,8 @@ def checked_pawl(pawl: PawlShape) -> PawlShape:
         raise ParameterError(*boss, "boss_reaches_teeth")
     if not pawl.swing < math.pi / 2:
         raise ParameterError("length", pawl.length, "pawl_cannot_pass")
+    if pawl.overrun == math.inf:
+        raise ParameterError("line_angle_deg", math.degrees(pawl.line_angle), "pawl_never_drops")
     # on its circle about the pivot, from the clear circle on, it keeps off that if it does at last
     knee = pawl.pivot + (pawl.knee - pawl.pivot) * cmath.exp(-1j * side * pawl.swing)
     if not side * (abs(knee) - pawl.clear_radius) >= 0:

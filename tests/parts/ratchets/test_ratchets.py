@@ -212,6 +212,36 @@ def test_a_pawl_that_stands_elsewhere_is_told() -> None:
         assert along == pytest.approx(25.0 * math.radians(off), abs=1e-9)
 
 
+NEVER_DOWN: list[tuple[Keys, Keys]] = [
+    ({"number_of_teeth": 3, "front_angle_deg": -28.1, "tooth_depth": 3.17},
+     {"length": 11.4, "line_angle_deg": 77.9, "boss_diameter": 7.5, "nose_height": 3.8, "clearance": 1.3,
+      "nose_radius": 4.6}),
+    ({"number_of_teeth": 5, "front_angle_deg": -10.04, "tooth_depth": 10.25},
+     {"length": 30.0, "line_angle_deg": 61.9, "boss_diameter": 3.0, "nose_height": 7.4, "clearance": 1.0,
+      "nose_radius": 0.98}),
+    ({"number_of_teeth": 8, "front_angle_deg": -14.1, "tooth_depth": 14.7},
+     {"length": 11.1, "line_angle_deg": 46.1, "boss_diameter": 4.1, "nose_height": 7.5, "clearance": 0.59,
+      "nose_radius": 0.54}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("wheel", "pawl"), NEVER_DOWN)
+def test_a_pawl_that_never_comes_down_is_refused(wheel: Keys, pawl: Keys) -> None:
+    """It ended in a traceback. By polygons: wherever the wheel stands, it is stopped far above its notch."""
+    refused = refusal(WHEEL | wheel, PAWL | pawl)
+    assert refused is not None
+    assert refused.code == "pawl_never_drops"
+    own = msgspec.convert({"kind": "pawl", "of": "wheel"} | pawl, PawlSpec)
+    shape = pawl_of(own, ratchet_of(msgspec.convert(WHEEL | wheel, RatchetWheelSpec)), 5.0)
+    teeth, bar = wheel_polygon(shape.wheel), polygon(shape.edges())
+    swung = [affinity.rotate(bar, -lift, (shape.pivot.real, shape.pivot.imag), use_radians=True)
+             for lift in np.linspace(shape.swing, 0, 40)]  # fmt: skip
+    for turn in np.linspace(0, shape.wheel.pitch_angle, 30, endpoint=False):
+        stands = affinity.rotate(teeth, turn, (0, 0), use_radians=True)
+        free = next(k for k, one in enumerate(swung) if one.intersection(stands).area > 1e-3)
+        assert free < 20
+
+
 REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
     "no land": (WHEEL | {"notch_angle_deg": 85.0}, None, "notch_angle_deg", "leaves_no_land"),
     "wide land": (WHEEL | {"tip_land": 15.8}, None, "tip_land", "leaves_no_notch"),
