@@ -147,28 +147,38 @@ class ChainDrive(Record, dict=True):
         strand = self.strand(wheel, first, second)
         return strand.second - strand.first + strand.length
 
-    def side(self, wheels: range, first: float) -> tuple[list[float], list[int]]:
-        """Of one side the phases of its wheels, from its first on, where all strands but the last are whole and taut.
+    def side(self, strands: range, first: float, last: float) -> tuple[list[float], dict[int, int]]:
+        """Of one side, between phases of both sprockets, the phases of its wheels but the last, and links of strands.
 
-        With them the links from seat 0 to seat 0 of these strands.
+        All but the longest by the pitch circles are whole and taut; links are those from seat 0 to seat 0.
         """
-        phases, counts = [first], list[int]()
-        for wheel in wheels[:-1]:
-            counts.append(round(self.links(wheel, phases[-1], 0.0)))
-            taut = partial(self.links, wheel, phases[-1])
-            phases.append(_where(taut, counts[-1], self._steps[wheel + 1]))
-        return phases, counts
+        start, end = strands[0], strands[-1] + 1
+        lengths = [abs(two - one) for one, two in (self.loop.strands[k] for k in strands)]
+        slack = strands[lengths.index(max(lengths))]
+        phases, counts = {start: first, end: last}, dict[int, int]()
+        for k in range(start, slack):
+            counts[k] = round(self.links(k, phases[k], 0.0))
+            phases[k + 1] = _where(partial(self.links, k, phases[k]), counts[k], self._steps[k + 1])
+        for k in range(end - 1, slack, -1):
+            counts[k] = round(self.links(k, 0.0, phases[k + 1]))
+            phases[k] = _where(partial(self.links, k, second=phases[k + 1]), counts[k], self._steps[k])
+        return [phases[k] for k in strands], counts
+
+    def _along(self, strands: range, first: float, last: float) -> float:
+        """Links from seat 0 to seat 0 over one side, where that is taut."""
+        phases, counts = self.side(strands, first, last)
+        (slack,) = {*strands} - {*counts}
+        ends = [*phases, last]
+        k = slack - strands[0]
+        return sum(counts.values()) + self.links(slack, ends[k], ends[k + 1])
 
     def above(self, first: float, second: float) -> float:
         """Links from seat 0 of the first over the upper side to seat 0 of the second, where that is taut."""
-        phases, counts = self.side(range(self.second), first)
-        return sum(counts) + self.links(self.second - 1, phases[-1], second)
+        return self._along(range(self.second), first, second)
 
     def below(self, first: float, second: float) -> float:
         """Links from seat 0 of the second over the lower side to seat 0 of the first."""
-        last = len(self.loop.wheels) - 1
-        phases, counts = self.side(range(self.second, last + 1), second)
-        return sum(counts) + self.links(last, phases[-1], first)
+        return self._along(range(self.second, len(self.loop.wheels)), second, first)
 
     def play(self, first: float, links: int) -> Play:
         """The second's play at a phase of the first near pi."""
@@ -196,22 +206,27 @@ class ChainDrive(Record, dict=True):
 
         Strands that are slack hang in arcs outwards.
         """
-        upper, counts = self.side(range(self.second), first)
-        lower, others = self.side(range(self.second, len(self.loop.wheels)), second)
-        phases = [*upper, *lower]
-        counts = [*counts, whole - sum(counts), *others, links - whole - sum(others)]
+        sides = range(self.second), range(self.second, len(self.loop.wheels))
+        phases, counts = list[float](), dict[int, int]()
+        for side, ends, many in zip(sides, ((first, second), (second, first)), (whole, links - whole), strict=True):
+            found, taut = self.side(side, *ends)
+            phases += found
+            (slack,) = {*side} - {*taut}
+            counts |= taut | {slack: many - sum(taut.values())}
         size = len(phases)
         strands = [self.strand(k, phase, phases[(k + 1) % size]) for k, phase in enumerate(phases)]
-        seated = []
+        seated, leaves = [], list[int]()
         for wheel, step, phase, before, after in zip(
             self.loop.wheels, self._steps, phases, [strands[-1], *strands], strands, strict=False
         ):
-            # seats are counted counter-clockwise round what is inside, the other way round what is outside
-            turns = np.arange(before.second, after.first - 1, -1) * (-step if wheel.outside else step)
+            # seats are counted counter-clockwise round what is inside, the other way round what is outside; an idler
+            # that is hardly touched has one
+            leaves.append(min(after.first, before.second))
+            turns = np.arange(before.second, leaves[-1] - 1, -1) * (-step if wheel.outside else step)
             seated.append(wheel.centre + wheel.radius * np.exp(1j * (phase + turns)))
         rows = []
         for k, strand in enumerate(strands):
-            hung = counts[k] + strand.first - strand.second
+            hung = counts[k] + leaves[k] - strand.second
             rows += [seated[k], _hanging(seated[k][-1], seated[(k + 1) % size][0], hung)]
         return np.concatenate(rows)
 

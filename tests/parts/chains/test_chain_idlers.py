@@ -74,3 +74,17 @@ def test_a_drawing_has_the_pitch_line_about_all_wheels(tmp_path: Path) -> None:
 def test_idlers_that_do_not_go_are_refused_by_their_key(mate: Keys, words: str) -> None:
     with pytest.raises(SceneError, match=words):
         told(mate)
+
+
+@pytest.mark.parametrize(
+    "idlers",
+    [
+        # as it was: all of the slack hung in a short strand, over the teeth of the first sprocket: an overlap of 2 mm
+        [{"at": [49.5, -60.86], "outside": True, "number_of_teeth": 20}],
+        # as it was: a roller that is hardly touched has no seat between its strands: a traceback
+        [{"at": [105.79, 2.58], "outside": True, "number_of_teeth": 7},
+         {"at": [32.91, -56.11], "outside": True, "diameter": 5.97}, {"at": [109.74, -65.42], "number_of_teeth": 9}],
+    ],
+)  # fmt: skip
+def test_slack_hangs_in_the_longest_strand_and_every_idler_has_a_seat(idlers: list[Keys]) -> None:
+    assert told({"idlers": idlers})["verdict"] == "contact"

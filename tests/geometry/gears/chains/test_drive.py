@@ -153,9 +153,10 @@ def test_taut_chains_about_an_idler_inside_are_hulls_of_three_polygons() -> None
     drive = about(INSIDE).drive
     for first in math.pi + np.linspace(-0.5, 0.5, 9) * drive.steps[0]:
         second, whole = drive.taut(first)
-        phases, counts = drive.side(range(drive.second), first)
-        assert len(phases) == 2
-        assert drive.links(0, *phases) == pytest.approx(counts[0], rel=1e-12)
+        phases, counts = drive.side(range(drive.second), first, second)
+        assert [len(phases), len(counts)] == [2, 1]
+        links = [drive.links(0, *phases), drive.links(1, phases[1], second)]
+        assert links == pytest.approx([round(x) for x in links], rel=1e-9)
         rows = zip((0j, INSIDE.centre, drive.distance + 0j), (17, 11, 38), (*phases, second), strict=True)
         pins = [c + cmath.rect(pitch_radius(z), at + 2 * math.pi * k / z) for c, z, at in rows for k in range(z)]
         hull = MultiPoint([(p.real, p.imag) for p in pins]).convex_hull
