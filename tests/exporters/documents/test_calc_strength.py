@@ -132,6 +132,37 @@ def test_the_torque_that_is_allowed_leaves_the_least_safety(method: str) -> None
     assert min(shares) == pytest.approx(1, rel=1e-12)
 
 
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize(
+    ("key", "one", "two", "method"),
+    [
+        ("contact_limit", 900, 1200, ""), ("bending_limit", 300, 400, ""), ("flank_factor", 0.9, 0.95, ""),
+        ("contact_size_factor", 0.9, 0.95, ""), ("hardening_factor", 1.1, 1.2, ""), ("surface_factor", 0.9, 1.1, ""),
+        ("gradient_factor", 0.9, 1.1, ""), ("reversing_factor", 0.7, 0.9, ""), ("yield_strength", 500, 900, ""),
+        ("root_roughness", 5, 30, ""), ("rim_thickness", 4, 5, ""), ("hardness", 220, 300, ""),
+        ("material_quality", '"ML"', '"ME"', ""), ("material_group", '"IF"', '"V alloy"', ""),
+        ("form_factor", 3.5, 4.0, GOST), ("flank_factor", 0.9, 0.95, GOST), ("surface_factor", 0.9, 1.1, GOST),
+        ("gradient_factor", 0.9, 1.1, GOST), ("reversing_factor", 0.7, 0.9, GOST), ("hardness", 220, 300, GOST),
+    ],
+)  # fmt: skip
+def test_a_list_has_the_first_gears_value_first(key: str, one: object, two: object, method: str) -> None:
+    """Each gear bears and is loaded as if its value stood alone, and another value is another number."""
+    rest = {"material_group": '"V alloy"', "hardness": 250, "load_cycles": 1e6, "torque": 20}
+    told = [f"{k}={v}" for k, v in rest.items() if k != key] + ([method] if method else [])
+    names = ("contact_strength", "root_strength", "root_stress")
+    found = {
+        given_value: {n: values(*PAIR, *told, f"{key}={given_value}")["values"][n] for n in names}
+        for given_value in (f"[{one},{two}]", f"{one}", f"{two}")
+    }
+    listed, first, second = found.values()
+    # a hard mate hardens a soft gear
+    names = names[1:] if key == "material_group" else names
+    for name in names:
+        assert listed[name]["first"] == pytest.approx(first[name]["first"], rel=1e-12)
+        assert listed[name]["second"] == pytest.approx(second[name]["second"], rel=1e-12)
+    assert any(first[name]["first"] != second[name]["first"] for name in names)
+
+
 def test_both_gears_stand_in_a_table() -> None:
     keys = (*PAIR, "torque=30", "contact_limit=1300", "bending_limit=400")
     found = values(*keys)
