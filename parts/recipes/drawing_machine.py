@@ -229,8 +229,11 @@ class _Making(Making):
         self.pen = float(math.ceil(max(self.prime + left - self.half, self.reach + pen + 2 * _APART)))
         ends = self._crank_end()
         most = math.hypot(self.pen, self.prime + self.low[1]) - pen - _APART - ends
-        usual = min(_CRANK_LENGTH, float(math.floor(most)))
+        least = (keys.axle_diameter + keys.guide_pin_diameter) / 2 + _WALL
+        usual = max(min(_CRANK_LENGTH, float(math.floor(most))), float(math.ceil(least)))
         self.crank_length = usual if keys.crank_length is None else keys.crank_length
+        if self.crank_length < least:
+            raise ParameterError.beyond("crank_length", self.crank_length, "no_wall_beside_holes", least)
         if self.crank_length > most:
             raise ParameterError("crank_length", self.crank_length, "crank_meets_pen", limit(most, self.crank_length))
 

@@ -244,7 +244,7 @@ def _bezier(poles: list[complex]) -> list[complex]:
 def _arc(start: complex, end: complex, told: list[float]) -> list[complex]:
     """Places on an elliptic arc between its ends (SVG 1.1, F.6)."""
     rx, ry = abs(told[0]), abs(told[1])
-    if not (rx and ry) or start == end:
+    if not (rx and ry):
         return []
     lean = cmath.rect(1.0, math.radians(told[2]))
 
@@ -253,6 +253,8 @@ def _arc(start: complex, end: complex, told: list[float]) -> list[complex]:
         return complex(z.real / rx, z.imag / ry)
 
     one, two = round_of(start), round_of(end)
+    if one == two:
+        return []
     half = abs(two - one) / 2
     # radii that do not reach grow
     grow = max(half, 1.0)

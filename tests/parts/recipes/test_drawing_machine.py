@@ -235,9 +235,10 @@ ZIGZAG = [[4.1, 5.5], [4.3, -6.1], [2.4, -4.2], [-4.1, -4.4], [-8.8, -6.8], [3.1
     {"picture": ZIGZAG, "smoothing": 20.0, "follower_radius": 30.0},
     {"picture": [[-8.3, -6.4], [8.7, -2.7], [5.4, 8.5], [6.4, 5.3]], "size": 5.0, "greatest_pressure_angle_deg": 60.0,
      "follower_radius": 10.0, "axle_diameter": 28.1},
-], ids=["a picture far from its line", "a thick shaft"])  # fmt: skip
-def test_table_and_cams_have_room_for_picture_and_key(keys: dict[str, Any]) -> None:
-    """They were refused in keys of parts that nobody had typed: the table's strokes, the cams' holes."""
+    {"picture": [[8.3, 0.6], [-7.7, -9.1], [-2.9, 2.0], [2.1, 0.1]], "size": 57.0, "axle_diameter": 56.0},
+], ids=["a picture far from its line", "a thick shaft", "a shaft as thick as the crank is long"])  # fmt: skip
+def test_table_crank_and_cams_have_room_for_picture_and_holes(keys: dict[str, Any]) -> None:
+    """They were refused in keys of parts that nobody had typed: strokes of the table, holes of the cams and the crank."""
     make_parts(scene_from_dict(scene(**keys), "s.toml", "s"), "s.toml")
 
 
@@ -264,6 +265,7 @@ def test_a_cam_turned_on_the_shaft_is_named(tmp_path: Path, capsys: pytest.Captu
     ({"size": 100.0, "greatest_pressure_angle_deg": 5.0}, "cams_too_large", "greatest_pressure_angle_deg"),
     ({"prime_circle_radius": 20.0}, "prime_circle_too_small", "prime_circle_radius"),
     ({"crank_length": 90.0}, "crank_meets_pen", "crank_length"),
+    ({"crank_length": 20.0, "axle_diameter": 44.0}, "no_wall_beside_holes", "crank_length"),
     ({"slide_width": 10.0}, "no_wall_beside_holes", "slide_width"),
     ({"roller_pin_diameter": 9.9}, "no_wall_beside_holes", "follower_radius"),
     ({"clearance": 2.0}, "pins_lie_loose", "clearance"),

@@ -142,6 +142,7 @@ def test_many_curves_have_fewer_chords(curves: int) -> None:
     (b'<svg><path d="M0 0L4, ,x"/></svg>', "no_path_data"),
     # beyond all numbers: it ended in a traceback
     (b'<svg><path transform="scale(1e308)" d="M0 0L4 0L3 3z"/></svg>', "no_line_in_picture"),
+    (b'<svg><path d="M42 1e300a2.9 24 23 1 0 -3 29v16z"/></svg>', "no_line_in_picture"),
     (b'<svg><polygon points="0 0 1.7e308 1.7e308 3 -1.7e308"/></svg>', "no_line_in_picture"),
     (b'<svg><polygon points="' + b"0 0 9 9 5 5 " * 600 + b'"/></svg>', "picture_of_many_corners"),
     (b" " * (MOST_BYTES + 1), "too_large_step"),
