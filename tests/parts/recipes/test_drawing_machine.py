@@ -238,7 +238,7 @@ ZIGZAG = [[4.1, 5.5], [4.3, -6.1], [2.4, -4.2], [-4.1, -4.4], [-8.8, -6.8], [3.1
     {"picture": [[8.3, 0.6], [-7.7, -9.1], [-2.9, 2.0], [2.1, 0.1]], "size": 57.0, "axle_diameter": 56.0},
 ], ids=["a picture far from its line", "a thick shaft", "a shaft as thick as the crank is long"])  # fmt: skip
 def test_table_crank_and_cams_have_room_for_picture_and_holes(keys: dict[str, Any]) -> None:
-    """They were refused in keys of parts that nobody had typed: strokes of the table, holes of the cams and the crank."""
+    """They were refused in keys of parts that nobody had typed: strokes of the table, holes of cams and crank."""
     make_parts(scene_from_dict(scene(**keys), "s.toml", "s"), "s.toml")
 
 
