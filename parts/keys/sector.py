@@ -19,6 +19,7 @@ _FIRST_TOOTH = Meta(
     examples=[-4],
 )
 _CORNER_RADIUS = part_mm("rounding of the corners beside the toothed rim", least=0)
+_BLANK_DIAMETER = "diameter of the blank between the runs; default: the root diameter"
 # a hub's default, of the bore's diameter and of the root diameter
 _HUB_OF_BORE, _HUB_OF_ROOTS = 2.0, 0.25
 
@@ -29,14 +30,15 @@ class SectorTable(Struct, forbid_unknown_fields=True):
     teeth: Annotated[int, Meta(ge=1, le=10_000, description="number of teeth that are kept, of each run", examples=[9])]
     first_tooth: Annotated[int, _FIRST_TOOTH] | None = None
     runs: Annotated[int, Meta(ge=1, le=1000, description="number of equal runs, evenly spaced")] = 1
-    blank_diameter: (
-        Annotated[
-            float,
-            part_mm("diameter of the blank between the runs; default: the root diameter", above=0, example=30.0),
-        ]
-        | None
-    ) = None
+    blank_diameter: Annotated[float, part_mm(_BLANK_DIAMETER, above=0, example=30.0)] | None = None
     corner_radius: Annotated[float, _CORNER_RADIUS] = 0.0
+
+
+class RingSectorTable(SectorTable, forbid_unknown_fields=True):
+    """Teeth on a part of the rim alone: a toothed sector, or equal runs of teeth that move a mate step by step."""
+
+    # beyond the roots of the ring that `new` shows
+    blank_diameter: Annotated[float, part_mm(_BLANK_DIAMETER, above=0, example=128.0)] | None = None
 
 
 class GearSectorTable(SectorTable, forbid_unknown_fields=True):

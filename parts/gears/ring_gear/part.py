@@ -22,7 +22,7 @@ from parts.keys.helix import (
     told_in_keys,
 )
 from parts.keys.holes import HolesTable, PitchCircle, hub_holes, with_remedy
-from parts.keys.sector import SectorTable, sector_of
+from parts.keys.sector import RingSectorTable, sector_of
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -79,7 +79,7 @@ class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     holes: RimHolesTable | list[RimHolesTable] | None = None
     tooth_mark: ToothMarkTable | None = None
-    sector: SectorTable | None = None
+    sector: RingSectorTable | None = None
 
 
 @told_in_keys
