@@ -723,11 +723,12 @@ def _keyway_beyond(name: str, way: ShaftKeywayTable, cuts: list[tuple[float, flo
 
 
 def _meet(one: Pocket, other: Pocket, radius: float) -> bool:
-    """Whether the sections of two keyways of a step, each as wide as at its floor, have a point in common."""
+    """Whether the sections of two keyways or flats of a step, each as wide as at its floor, have a point in common."""
     corners = []
     for pocket in (one, other):
         half = pocket.width / 2
-        rim = math.sqrt(radius**2 - half**2)
+        # all beyond a flat is gone
+        rim = radius if pocket.is_flat else math.sqrt(radius**2 - half**2)
         corners.append(
             [cmath.rect(1.0, pocket.angle) * complex(x, y) for x in (pocket.floor, rim) for y in (-half, half)]
         )

@@ -132,6 +132,13 @@ REFUSED: dict[str, tuple[Keys, list[Keys], str, str]] = {
     "beside": (two(), [step(9.0, 5.0)], "steps[2].diameter = 9.0", "4 mm across"),
     "in a row": (two(), [step(10.0, 5.0, **one(9.0))], "steps[2].flats", "end in one plane"),
     "all round": (two(), [step(10.0, 5.0), step(10.0, 20.0, **two(angle_deg=0.0))], "steps", "free"),
+    # as it was: wholly in what the flat takes away, and yet a solid
+    "keyway beyond": (
+        one(6.0) | {"keyways": [{"at": 5.0, "length": 9.0, "angle_deg": 45.0}]},
+        [],
+        "steps[1].keyways[1].angle_deg",
+        "or a flat",
+    ),
     "keyway": (
         one(9.0) | {"keyways": [{"at": 5.0, "length": 9.0}]}, [], "steps[1].keyways[1].angle_deg", "or a flat"
     ),
