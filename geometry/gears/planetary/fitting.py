@@ -272,7 +272,9 @@ class Fitting(Record):
         yield middle
         for k in range(1, round(_FARTHEST / _STEP) + 1):
             yield middle + k * step
-            yield middle - k * step
+            # of wheels hardly larger than their satellites it comes down to none
+            if middle > k * step:
+                yield middle - k * step
 
     def _at(self, teeth: PlanetarySet, meshes: tuple[RimMesh, RimMesh], distance: float) -> Fit | None:
         if any(mesh.shift_total(distance) is None for mesh in meshes):

@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 _MOST = 100_000.0
 # keys of which less may do
 _LESSENED = ("tip_rounding", "axial_thinning", "fillet_coefficient", "tip_clearance_coefficient")
+# of a diameter, what rounding leaves
+_ROUNDING = 1e-12
 # of the ends of a thread, degrees
 _USUAL_ANGLES = {"end_angle_deg": 20.0, "run_out_deg": 90.0}
 
@@ -161,7 +163,7 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
         steps: list[StepTable] = getattr(keys, key)
         for number, step in enumerate(steps, 1):
             place = f"{key}[{number}]"
-            if number == 1 and step.diameter > 2 * root and keys.thread_ends != "run_out":
+            if number == 1 and step.diameter > 2 * root * (1 + _ROUNDING) and keys.thread_ends != "run_out":
                 most = limit(2 * root, step.diameter)
                 raise ParameterError(f"{place}.diameter", step.diameter, "worm_shaft_over_root", most, root=2 * root)
             if number < len(steps) and step.chamfer > (free := max((step.diameter - steps[number].diameter) / 2, 0.0)):

@@ -305,6 +305,8 @@ def test_ferguson_has_three_different_satellites() -> None:
         ({"teeth": [2, 24, 72]}, "teeth[1]", "not_allowed"),
         ({"teeth": [24, 24, 20]}, "teeth", "ring_not_above_rim"),
         ({"teeth": [24, 24, 82], "satellites": 2}, "teeth", "no_shifts_fit"),
+        # distances about 2.5 mm are sought, down to none: it ended in a traceback
+        ({"scheme": "two_internal", "teeth": [65, 64, 46, 50]}, "teeth", "no_shifts_fit"),
         ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1, 0.5]}, "shifts", "shifts_not_coaxial"),
         ({"teeth": [24, 24, 72], "shifts": [0.1, 0.1]}, "shifts", "one_shift_a_wheel"),
         ({"teeth": [24, 24, 72], "held": "first"}, "driver", "driver_is_held"),

@@ -325,3 +325,18 @@ def test_a_worm_is_measured_over_the_balls_of_its_standard() -> None:
     for module in (2.0, 5.0):
         scene = scene_from_dict({"parts": {"p": WORM | {"module": module}}}, "s", "s")
         assert make_parts(scene, "s")[0]["p"].quantities["ball_diameter"] == pytest.approx(1.67 * module, rel=1e-12)
+
+
+@pytest.mark.parametrize("module", [0.47, 3.76, 4.0])
+def test_a_shaft_of_the_root_diameter_is_not_thicker_than_it(module: float) -> None:
+    """7.6 m of q 10; what rounding leaves of it was found: 28.576 is thicker than 28.576 mm."""
+    for more, builds in ((0.0, True), (1e-6, False)):
+        step = {"diameter": round(7.6 * module, 6) + more, "length": 5.0}
+        keys = {"kind": "worm", "module": module, "thread_length": 12 * module, "shaft_below": [step]}
+        raw = scene_from_dict({"parts": {"w": keys}}, "t", "t")
+        if builds:
+            make_parts(raw, "t")
+            continue
+        with pytest.raises(SceneError) as found:
+            make_parts(raw, "t")
+        assert found.value.code == "worm_shaft_over_root"
