@@ -414,12 +414,17 @@ def _across(half: HalfSection, pocket: Pocket) -> complex:
     return cmath.exp(1j * (front - pocket.angle))
 
 
+def _cylinder(half: HalfSection, pocket: Pocket) -> tuple[float, float, float]:
+    """Of what a keyway or a flat is in, a chamfer at its end left out: the radius, and from where to where, mm."""
+    spans = [(p.start.real, *sorted((p.start.imag, p.end.imag))) for p in half.pieces
+             if p.centre is None and abs(p.start.real - p.end.real) < _SAME]  # fmt: skip
+    within = [(r, max(low, pocket.low), min(high, pocket.high)) for r, low, high in spans]
+    return max(span for span in within if span[2] - span[1] > _SAME)
+
+
 def _radius(half: HalfSection, pocket: Pocket) -> float:
     """Of the cylinder that a keyway is in, mm."""
-    middle = (pocket.low + pocket.high) / 2
-    return max(p.start.real for p in half.pieces
-               if p.centre is None and abs(p.start.real - p.end.real) < _SAME
-               and min(p.start.imag, p.end.imag) <= middle <= max(p.start.imag, p.end.imag))  # fmt: skip
+    return _cylinder(half, pocket)[0]
 
 
 def _notched(half: HalfSection, loop: Loop, pockets: Sequence[Pocket], way: complex) -> Loop:
@@ -573,7 +578,7 @@ def _planes(half: HalfSection) -> list[float]:
     found: list[float] = []
     for pocket in half.pockets:
         if not any(pocket.low < at < pocket.high for at in found):
-            found.append((pocket.low + pocket.high) / 2)
+            found.append(sum(_cylinder(half, pocket)[1:]) / 2)
     return found
 
 

@@ -109,6 +109,28 @@ def test_files_of_a_shaft_with_flats(tmp_path: Path) -> None:
     assert area["two"] == pytest.approx(math.pi * 2.5**2 - 2 * beyond(2.5, 2.0), rel=1e-3)
 
 
+@pytest.mark.parametrize("bore", [0.0, 6.0])
+@pytest.mark.parametrize("end", ["lower", "upper"])
+def test_flats_of_which_a_chamfer_takes_the_middle_are_cut_where_their_cylinder_is(
+    tmp_path: Path, end: str, bore: float
+) -> None:
+    """The section of a shaft with a flat hardly longer than the chamfer ended in a traceback: a square root of less than 0."""
+    flats = {"shape": "double_D", "across_flats": 21.0, "length": 3.0, "end": end}
+    part = shaft(step(24.0, 14.0, chamfer=2.0, flats=flats), bore_diameter=bore)
+    scene = write_scene(tmp_path / "s.toml", {"shaft": part}, [{"format": "dxf", "purpose": "part"}])
+    run("build", str(scene), "--out", str(tmp_path))
+    (file,) = tmp_path.rglob("shaft.part.dxf")
+    arcs = [arc.dxf for arc in ezdxf.readfile(file).modelspace().query("ARC")]
+    # what a chord 10.5 off the axis leaves of a circle of 12 on both sides
+    left = [
+        arc
+        for arc in arcs
+        if abs((arc.end_angle - arc.start_angle) % 360 - 2 * math.degrees(math.asin(10.5 / 12))) < 1e-6
+    ]
+    assert len(left) == 2
+    assert len({arc.radius for arc in left}) == 1
+
+
 def two(**keys: Any) -> Keys:
     return {"flats": TWO | keys}
 
