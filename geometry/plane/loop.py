@@ -116,7 +116,9 @@ class Loop(Record, dict=True):
         else:
             return None
         found = moved(bracketed_root(lambda share: moved(share).length - length, *sorted((0.0, most))).value)
-        return None if found.missed() else found
+        # where the line leaves another wheel its length jumps, and no place has the length
+        reached = abs(found.length - length) < _SAME * length
+        return found if reached and not found.missed() else None
 
     def missed(self) -> tuple[int, ...]:
         """Wheels of which one is not where the line can come to it, those first that are it sooner; () if all are.

@@ -84,6 +84,26 @@ def test_a_wheel_is_pressed_on_until_the_loop_is_as_long_as_asked() -> None:
     assert loop.tightened(1, 300.0) is None
 
 
+def test_no_place_is_told_where_the_line_would_leave_another_wheel() -> None:
+    """A place was told where its length jumps: a belt of 142 mm would have hung by 1.26 mm there."""
+    wheels = [(0j, 33 / math.pi), (45.3 + 0j, 16 / math.pi), (15.85 - 7.05j, 3.33), (29.45 - 7.24j, 2.98)]
+    first, second, one, last = (Wheel(*wheel) for wheel in wheels)
+    loop = Loop((first, second, last, one))
+    assert not loop.missed()
+
+    def hull(pressed: float, *others: tuple[complex, float]) -> float:
+        circles = [*others, (29.45 - 7.24j + pressed * (0.16 - 1j), 2.98)]
+        return float(unary_union([Point(c.real, c.imag).buffer(r, 4096) for c, r in circles]).convex_hull.length)
+
+    # all are inside: the line is their hull, and where the last makes it 142 mm long it has left the other one
+    low, high = 0.0, 20.0
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if hull(middle, *wheels[:3]) < 142.0 else (low, middle)
+    assert hull(low, *wheels[:2]) == pytest.approx(142.0)
+    assert loop.tightened(2, 142.0) is None
+
+
 @pytest.mark.parametrize(
     ("wheel", "which"),
     [
