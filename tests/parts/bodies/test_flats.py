@@ -114,7 +114,7 @@ def test_files_of_a_shaft_with_flats(tmp_path: Path) -> None:
 def test_flats_of_which_a_chamfer_takes_the_middle_are_cut_where_their_cylinder_is(
     tmp_path: Path, end: str, bore: float
 ) -> None:
-    """The section of a shaft with a flat hardly longer than the chamfer ended in a traceback: a square root of less than 0."""
+    """The section of a shaft with a flat hardly longer than the chamfer ended in a traceback."""
     flats = {"shape": "double_D", "across_flats": 21.0, "length": 3.0, "end": end}
     part = shaft(step(24.0, 14.0, chamfer=2.0, flats=flats), bore_diameter=bore)
     scene = write_scene(tmp_path / "s.toml", {"shaft": part}, [{"format": "dxf", "purpose": "part"}])
