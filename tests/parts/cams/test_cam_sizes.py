@@ -230,10 +230,11 @@ def test_a_swinging_roller_keeps_the_angle_of_its_rise_alone_where_it_is_asked_t
                        least_transmission_angle_deg=rise, least_return_transmission_angle_deg=back,
                        follower_radius=3.0))  # fmt: skip
     unit = math.radians(20.0) / H
-    limits = {"rise": 90 - rise, "return": 90 - (rise if back is None else back)}
+    limits = 90 - rise, 90 - (rise if back is None else back)
+    samples = [(s[::40], v[::40]) for s, v, _ in (RISE, FALL)]
 
     def holds(start: float) -> bool:
-        for (s, v, _), most in zip((RISE, FALL), limits.values(), strict=True):
+        for (s, v), most in zip(samples, limits, strict=True):
             psi = start + unit * s
             steep = np.abs(np.arctan((arm * (1 + unit * v) - distance * np.cos(psi)) / (distance * np.sin(psi))))
             if np.degrees(steep).max() > most:
