@@ -20,6 +20,7 @@ from parts.drawing.assembly_views import Drawn, Shown, along_axes, cut, seen
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.extent import farthest
+from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import AXIS, VISIBLE, Size
 from parts.scene.parts_list import list_rows
 from parts.scene.placing import PlacedMate, Placing
@@ -110,6 +111,8 @@ def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: compl
             ends += [complex(pins[start]), complex(pins[last])]
         for one, two in zip(ends[1::2], [*ends[2::2], ends[0]], strict=True):
             yield AXIS, Line(one, two)
+        for axis, rim in mate.idlers():
+            yield VISIBLE, circle_of(rim, (axis - centre) / way)
 
 
 def _foot(mate: PlacedMate, first: complex, second: Placement3) -> complex:

@@ -27,7 +27,7 @@ from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Label, Profile, circle
 from parts.base.texts import fault, fault_of, unless
 from parts.scene.relative_path import Course
 from parts.scene.standing import UPWARDS, Instance
@@ -39,7 +39,7 @@ LEAST_TOLERANCE = 2 * _ROUNDING
 # of a direction that stays; mm: what chords of silhouettes leave at most; poses of what changes at most
 _LEVEL, _CHORD, _MOST_FORMS = 1e-9, 1e-3, 1920
 # of chains
-_CHAIN = "#7f8c99"
+_CHAIN, _IDLER = "#7f8c99", "#c9ced6"
 
 
 class MotionJob(Film, dict=True):
@@ -75,6 +75,15 @@ class MotionJob(Film, dict=True):
     def _chains(self) -> tuple[MovingChain, ...]:
         """The chains that run in it."""
         return tuple(moving_chains(self.mates, self.course, float(self.loop)))
+
+    @cached_property
+    def _idlers(self) -> dict[str, tuple[complex, float]]:
+        """Axes and radii, mm, of what guides chains and is no instance, by names that none has."""
+        return {
+            f"idler.{mate.first.id}.{mate.second.id}.{k}": rim
+            for mate in self.mates
+            for k, rim in enumerate(mate.idlers(), 1)
+        }
 
     def _forms(self, instance: Instance) -> tuple[Complex, float]:
         """Outlines of what changes at even shares of the loop, and how far they are off, mm."""
@@ -157,9 +166,12 @@ class MotionJob(Film, dict=True):
                 own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
             on = self._on(instance, [o.geometry for o in own])
             made.append(Track(instance.id, own, colour, *ways, pins=on[0], lines=on[1]))
+        stays = np.zeros(1), np.zeros(1, complex)
+        for name, rim in self._idlers.items():
+            own = (approximate_profile(_rim(*rim), SHARE * self.tolerance, arcs=True),)
+            made.append(Track(name, own, _IDLER, stays, stays))
         for chain in self._chains:
             seconds = self.seconds / abs(chain.pitches)
-            stays = np.zeros(1), np.zeros(1, complex)
             made.append(Track(chain.name, (), _CHAIN, stays, stays, chain.forms, seconds))
         return made, worst + max((x.max_error for row in outlines.values() for x in row), default=0.0)
 
@@ -203,9 +215,10 @@ class MotionJob(Film, dict=True):
             reach = max(float(np.abs(one).max()) for one in seen) * 1.03
             spans.append([places.real.min() - reach, places.imag.min() - reach, -places.real.max() - reach,
                           -places.imag.max() - reach])  # fmt: skip
-        for track in tracks[len(self._shown) :]:
-            assert track.forms is not None
-            x, y = track.forms.real, track.forms.imag
+        for axis, radius in self._idlers.values():
+            spans.append([axis.real - radius, axis.imag - radius, -axis.real - radius, -axis.imag - radius])
+        for chain in self._chains:
+            x, y = chain.forms.real, chain.forms.imag
             spans.append([x.min(), y.min(), -x.max(), -y.max()])
         left, low, right, high = np.min(spans, axis=0).tolist()
         write_motion_svg(file, self.title, tracks, (left, low, -right, -high), self.seconds)
@@ -220,7 +233,7 @@ class MotionJob(Film, dict=True):
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: outlines, and where they stand at many times, against exact poses."""
         found = read_motion(file)
-        if list(found) != [*(i.id for i in self._shown), *(chain.name for chain in self._chains)]:
+        if list(found) != [*(i.id for i in self._shown), *self._idlers, *(chain.name for chain in self._chains)]:
             return Verdict({}, (fault("holds {tracks}", tracks=", ".join(found)),))
         told = {found[i.id].seconds for i in self.instances} - {0.0}
         failures = unless(len(told) <= 1, "instances take unlike times for their loop")
@@ -248,16 +261,29 @@ class MotionJob(Film, dict=True):
             failures += unless(alike, "{part}: its outline is that of another", part=instance.part)
             if changing is not None and forms is not None:
                 outline = max(outline, changing.off_outlines(self.frames(instance, TIMES)[0], forms))
+        for name, rim in self._idlers.items():
+            verdict = verify_loops(found[name].loops, (_rim(*rim),), [""], declared, self.tolerance)
+            failures += [fault_of(name, text) for text in verdict.failures]
+            failures += unless(_stays(found[name]), "{part}: its outline is that of another", part=name)
         for chain in self._chains:
             track = found[chain.name]
             failures += self.late(track.seconds * abs(chain.pitches))
             # a picture, held at the stands that it has
             forms = np.zeros(0, complex) if track.forms is None else track.forms
             well = forms.shape == chain.forms.shape and float(np.abs(forms - chain.forms).max()) <= 10.0**-CORNERS
-            well = well and float(np.abs(np.concatenate([track.places[1], track.angles[1]])).max()) == 0.0
+            well = well and _stays(track)
             failures += unless(well, "{part}: its outline is that of another", part=chain.name)
         failures += self.off_place(worst, outline, declared)
         return Verdict({"max_deviation": outline, "pose_deviation": worst, "loop_seconds": seconds}, tuple(failures))
+
+
+def _rim(axis: complex, radius: float) -> Profile:
+    return circle(radius, Label.RIM, centre=axis)
+
+
+def _stays(track: ReadTrack) -> bool:
+    """Whether a track stands where it is drawn."""
+    return float(np.abs(np.concatenate([track.places[1], track.angles[1]])).max()) == 0.0
 
 
 def _over(contour: Contour) -> Contour:

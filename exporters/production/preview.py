@@ -133,7 +133,12 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         np.concatenate(lying[i.id]) if i.id in lying else _outer(i, outlines[i.part][-1].geometry.sampled(PER_EDGE))
         for i in stand
     ]
-    points = np.concatenate(outers)
+    chains = [found for mate in plan.placing.mates if (found := mate.rollers()) is not None]
+    idlers = [one for mate in plan.placing.mates for one in mate.idlers()]
+    # what runs about others may reach beyond them
+    points = np.concatenate(
+        [*outers, *(at + r * _ROUND for row, r in chains for at in row), *(at + r * _ROUND for at, r in idlers)]
+    )
     left, right = float(points.real.min()), float(points.real.max())
     low, high = float(points.imag.min()), float(points.imag.max())
     reach = max(right - left, high - low) / 2
@@ -160,8 +165,10 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], round(x, DRAWN_DECIMALS), round(y, DRAWN_DECIMALS), size))
-    chains = [(found[0] + shift, found[1]) for mate in plan.placing.mates if (found := mate.rollers()) is not None]
-    for centres, radius in chains:
+    for at, radius in idlers:
+        body.append(_round(at + shift, radius, "fill:#c9ced6", corner, reach))
+        loops.append([(corner + (at + shift + radius * _ROUND).conj()).round(DRAWN_DECIMALS)])
+    for centres, radius in ((row + shift, radius) for row, radius in chains):
         body += _chain(centres, radius, corner, reach)
         # no name stands on a roller
         loops.append([corner.real + at.real + 1j * (corner.imag - at.imag) + radius * _ROUND for at in centres])
@@ -224,12 +231,14 @@ def _chain(centres: Complex, radius: float, corner: complex, reach: float) -> li
     data = path_data(Contour(centres, np.zeros(len(centres))), corner)
     return [
         f'<path d="{data}" style="fill:none;stroke:#c03020;{line}"/>',
-        *(
-            f'<circle cx="{number(at.real + corner.real)}" cy="{number(corner.imag - at.imag)}" r="{number(radius)}" '
-            f'style="fill:#7f8c99;fill-opacity:0.5;stroke:#202830;{line}"/>'
-            for at in centres.tolist()
-        ),
+        *(_round(at, radius, "fill:#7f8c99;fill-opacity:0.5", corner, reach) for at in centres.tolist()),
     ]
+
+
+def _round(at: complex, radius: float, shade: str, corner: complex, reach: float) -> str:
+    """A circle in a shade."""
+    place = f'cx="{number(at.real + corner.real)}" cy="{number(corner.imag - at.imag)}" r="{number(radius)}"'
+    return f'<circle {place} style="{shade};stroke:#202830;stroke-width:{reach / 600:.4g}"/>'
 
 
 def _leader(line: tuple[complex, complex], size: float) -> str:

@@ -25,11 +25,12 @@ _DOUBLED = 60
 
 
 class Wheel(Record):
-    """A circle that a loop goes about."""
+    """A circle that a loop goes about; ``rim``: the radius of the body within it, 0 where none is told."""
 
     centre: complex
     radius: float
     outside: bool = False
+    rim: float = 0.0
 
     @property
     def side(self) -> float:

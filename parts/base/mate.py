@@ -219,6 +219,10 @@ class Mating(Joined, kw_only=True):
         """Axes and radii, mm, of what such a chain goes about, clockwise in its order, below 0 of what is outside."""
         return []
 
+    def idlers(self, first: Pose, second: Pose) -> list[tuple[complex, float]]:
+        """Axes and radii, mm, of what guides such a chain and is no instance."""
+        return []
+
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one pitch or turn, the second that far off its exact place; None: nothing moves here."""
         return None

@@ -210,7 +210,9 @@ def _with_idlers(
     if distance is None:
         raise ParameterError(f"{prefix}centre_distance", None, "missing_beside_idlers")
     told = idler_wheels(idlers, prefix, lambda teeth: pitch_radius(teeth) * chain.pitch, chain.roller_diameter / 2)
-    wheels = tuple(replace(w, centre=w.centre / chain.pitch, radius=w.radius / chain.pitch) for w in told)
+    wheels = tuple(
+        replace(w, centre=w.centre / chain.pitch, radius=w.radius / chain.pitch, rim=w.rim / chain.pitch) for w in told
+    )
     mesh = ChainMesh(sprockets, distance, 0, idlers=wheels)
     check_idlers(mesh.drive.loop, wheels, idlers, prefix)
     needed = mesh.drive.longest() - PLACED_MM / chain.pitch

@@ -64,7 +64,8 @@ class IdlerTable(Struct, forbid_unknown_fields=True, kw_only=True):
             raise ParameterError(f"{name}.number_of_teeth", None, "one_of_two_is_missing", other="diameter")
         if radius <= 0:
             raise ParameterError(f"{name}.pitch_line_offset", self.pitch_line_offset, "idler_of_no_size")
-        return Wheel(complex(*self.at), radius, self.outside)
+        rim = radius - over if self.diameter is None else self.diameter / 2
+        return Wheel(complex(*self.at), radius, self.outside, rim)
 
 
 Idlers = Annotated[
@@ -111,6 +112,12 @@ class Wrapped(Toothed, kw_only=True):
         """Axes and radii, mm, of all wheels in the order in which the loop comes to them, below 0 of those outside."""
         way = cmath.rect(self.unit, cmath.phase(second[0] - first[0]))
         return [(first[0] + way * wheel.centre, self.unit * wheel.side) for wheel in self.loop.wheels]
+
+    def idlers(self, first: Pose, second: Pose) -> list[tuple[complex, float]]:
+        """Axes and radii, mm, of those that no part is: a toothed one as far as the chain or the pitch line."""
+        axes = [axis for axis, _ in self.about(first, second)]
+        rims = (self.unit * wheel.rim for wheel in self.loop.wheels)
+        return [(axis, rim) for axis, rim in zip(axes, rims, strict=True) if rim > 0]
 
 
 def gap_away(rotation: float, direction: float, step: float) -> float:

@@ -81,6 +81,12 @@ class PlacedMate(Record):
         poses = [(i.centre, i.rotation + turn) for i, turn in ((self.first, turned), (self.second, turned * one / two))]
         return self.mating.rollers(poses[0], poses[1])
 
+    def idlers(self) -> list[tuple[complex, float]]:
+        """Axes and radii, mm, of what guides such a chain and is no instance."""
+        if self.first.axis != UPWARDS:
+            return []
+        return self.mating.idlers((self.first.centre, self.first.rotation), (self.second.centre, self.second.rotation))
+
 
 class Closeness(Record):
     """Two instances that no mate joins, nearer than their tip circles allow: they may touch as they turn."""

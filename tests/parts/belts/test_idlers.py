@@ -6,14 +6,19 @@ import json
 import math
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
+import ezdxf
+import numpy as np
 import pytest
 
 from exporters.documents.topics import calculate
+from exporters.formats.read_motion import read_motion
 from parts.base.refusal import SceneError
-from tests.exporters.making import table, write_scene
+from tests.exporters.making import run, table, write_scene
 from tests.parts.belts.test_timing_pulleys import LARGE, MATE, PLATE, Keys, placed
 
+SVG = "{http://www.w3.org/2000/svg}"
 # a ball bearing of 10 mm on the back of a belt GT2, whose pitch line is 0.38 mm off it
 ROLLER: Keys = {"at": [30.0, 15.5], "diameter": 10.0, "pitch_line_offset": 0.38, "outside": True}
 
@@ -90,3 +95,47 @@ def test_idlers_that_do_not_go_are_refused_by_their_key(mate: Keys, words: str) 
     keys = {k: v for k, v in ({"centre_distance": 60.0} | mate).items() if v is not None}
     with pytest.raises(SceneError, match=words):
         placed(keys)
+
+
+@pytest.mark.parametrize("kind", ["belt", "chain"])
+def test_pictures_have_the_idlers_and_all_that_runs_about_them(tmp_path: Path, kind: str) -> None:
+    """No part is an idler: none was in a picture, which was cut off where the loop leaves the two wheels' rectangle."""
+    two: list[Keys] = [ROLLER, {"at": [28.0, -30.0], "diameter": 9.0}]
+    parts: Keys = {"a": PLATE, "b": LARGE}
+    mate: Keys = {"kind": "belt_drive", "first": "a", "second": "b", "centre_distance": 60.0, "idlers": two}
+    if kind == "chain":
+        two = [{"at": [110.0, 62.0], "diameter": 10.0, "outside": True}, {"at": [90.0, -95.0], "diameter": 9.0}]
+        parts = {"a": {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17}}
+        parts["b"] = parts["a"] | {"number_of_teeth": 38}
+        mate |= {"kind": "chain_drive", "centre_distance": 200.0, "idlers": two}
+    exports: list[Keys] = [{"format": "svg"}, {"format": "motion"}, {"format": "dxf", "purpose": "assembly"}]
+    head = table("[[mates]]", mate) + table("[[drives]]", {"instance": "a", "turns": 2.0})
+    assert run("build", write_scene(tmp_path / "s.toml", parts, exports, head), "--out", tmp_path) == 0
+    preview, film = tmp_path / "s" / "s.preview.svg", tmp_path / "s" / "s.motion.svg"
+    root = ElementTree.parse(preview).getroot()
+    wide, high = (float(x) for x in root.attrib["viewBox"].split()[2:])
+    (group,) = (g for g in root.iter(f"{SVG}g") if "transform" in g.attrib)
+    down = float(group.attrib["transform"].split()[1].rstrip(")"))
+    circles = [tuple(float(c.attrib[k]) for k in ("cx", "cy", "r")) for c in group.iter(f"{SVG}circle")]
+    assert all(r <= x <= wide - r and r <= y + down <= high - r for x, y, r in circles)
+    wheels = [c for c in circles if c[2] in (5.0, 4.5)]
+    assert [c[2] for c in wheels] == [5.0, 4.5]
+    apart = complex(*wheels[1][:2]) - complex(*wheels[0][:2])
+    (x, y), (to_x, to_y) = two[0]["at"], two[1]["at"]
+    assert apart == pytest.approx(complex(to_x - x, y - to_y), abs=1e-3)
+    tracks = read_motion(film)
+    for k, (idler, radius) in enumerate(zip(two, (5.0, 4.5), strict=True), 1):
+        corners = tracks[f"idler.a.b.{k}"].loops[0].vertices
+        assert np.abs(corners - complex(*idler["at"])) == pytest.approx(radius, abs=1e-5)
+    drawn = ezdxf.readfile(tmp_path / "s" / "s.assembly.dxf").modelspace()
+    radii = {c.dxf.radius for c in drawn.query("CIRCLE ARC")}
+    assert any(
+        {round(5.0 * s, 6), round(4.5 * s, 6)} <= {round(r, 6) for r in radii} for s in (0.4, 0.5, 1.0, 2.0, 2.5)
+    )
+    # one that stands elsewhere is seen
+    assert run("verify", film) == 0
+    text = film.read_text(encoding="utf-8")
+    spoiled = text.replace('idler.a.b.2" transform="translate(0,0)', 'idler.a.b.2" transform="translate(0.1,0)')
+    assert spoiled != text
+    film.write_text(spoiled, encoding="utf-8")
+    assert run("verify", film) == 1
