@@ -8,21 +8,20 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import Any
+from typing import Any, cast
 
 from geometry.base.errors import ParameterError
 from geometry.base.findings import Finding
-from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.strength import iso6336
 from parts.base.texts import N_
 from parts.gears.spur_gear.page import cutter_data, given_data, sector_data, shift_data, thinning_data
-from parts.mates.pages.external import Asked, Pairs, external_page, table_of_pair
+from parts.mates.pages.external import Asked, PairKeys, Pairs, external_page, table_of_pair
 from parts.mates.pages.internal import InternalKeys, internal_page
 from parts.mates.pages.pair_keys import kind_of_pair
 from parts.mates.pages.strength_flank import flank_allowed, flank_stress
 from parts.mates.pages.strength_gost import gost_steps
-from parts.mates.pages.strength_keys import LoadedInternalKeys, LoadedPairKeys, Rated
+from parts.mates.pages.strength_keys import LoadedInternalKeys, LoadedPairKeys, LoadKeys, Pair, Rated, given_once
 from parts.mates.pages.strength_root import root_allowed, root_stress
 from parts.pages.contact_steps import ISO, Helical, face_steps, heading, meshing_steps
 from parts.pages.force_steps import asked_torque, torque_steps
@@ -46,20 +45,25 @@ def sheet(table: dict[str, Any]) -> Sheet:
     return PAIRS[kind][1](table)
 
 
-def _external(asked: Asked) -> Sheet:
-    keys: Any = asked.keys
-    page = Sheet(TOPIC, _TITLES[keys.method])
+def _begun(pair: Pair, keys: PairKeys | InternalKeys, helical: Helical) -> tuple[Sheet, Rated]:
+    """A page without a step yet, and the pair with its load."""
+    width = min(keys.first.face_width, keys.second.face_width)
+    rated = Rated(pair, cast("LoadKeys", keys), helical, width)
+    page = Sheet(TOPIC, _TITLES[rated.keys.method])
     page.section("Given")
+    return page, rated
+
+
+def _external(asked: Asked) -> Sheet:
+    page, rated = _begun(asked.pair, asked.keys, asked.helical)
     for index, (normal, gear) in enumerate(zip(asked.normal, asked.pair.gears, strict=True), 1):
         given_data(page, normal, gear, asked.helical.angle, index)
     total = "profile_shift_sum" if asked.shifts_follow else "tight_profile_shift_sum"
-    return _rated(page, asked.pair, keys, asked.helical, "" if keys.working_centre_distance is None else total)
+    return _rated(page, rated, "" if asked.keys.working_centre_distance is None else total)
 
 
 def _internal(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:
-    loaded: Any = keys
-    page, ring = Sheet(TOPIC, _TITLES[loaded.method]), pair.ring
-    page.section("Given")
+    (page, rated), ring = _begun(pair, keys, helical), pair.ring
     given_data(page, helical.normal, pair.pinion, helical.angle, 1)
     page.add("number_of_teeth", ring.number_of_teeth, gear=2)
     sector_data(page, ring, 2)
@@ -67,33 +71,30 @@ def _internal(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet
     if ring.cutter is not None:
         cutter_data(page, ring.cutter, 2, 1 / math.cos(helical.angle))
     thinning_data(page, ring, helical.angle, "+", 2)
-    wanted = "" if keys.working_centre_distance is None else "profile_shift_difference"
-    return _rated(page, pair, loaded, helical, wanted)
+    return _rated(page, rated, "" if keys.working_centre_distance is None else "profile_shift_difference")
 
 
-def _rated(page: Sheet, pair: ExternalPair | InternalPair, keys: Any, helical: Helical, wanted: str) -> Sheet:
+def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
     """All that follows after the data of both gears."""
-    rated = Rated(pair, keys, helical, min(keys.first.face_width, keys.second.face_width))
+    pair, torque = rated.pair, asked_torque(rated.keys)
     if pair.effective_contact_ratio <= 0:
         raise ParameterError("working_centre_distance", pair.working_centre_distance, "flanks_do_not_meet")
     if not rated.helix:
         page.add("face_width", rated.width)
     _mesh(page, rated, wanted)
-    torque = asked_torque(keys)
     if torque is not None:
         _load(page, rated, torque)
-    if keys.method == "GOST 21354":
+    if rated.keys.method == "GOST 21354":
         gost_steps(page, rated, loaded=torque is not None)
     else:
         if torque is not None:
             _load_factors(page, rated)
-        flank_stress(page, rated, loaded=torque is not None)
-        flank_allowed(page, rated, loaded=torque is not None)
-        root_stress(page, rated, loaded=torque is not None)
-        root_allowed(page, rated, loaded=torque is not None)
+        for steps in (flank_stress, flank_allowed, root_stress, root_allowed):
+            steps(page, rated, loaded=torque is not None)
     if torque is not None:
         _torques(page, rated, torque)
         _summary(page)
+    page.sections = [section for section in page.sections if section.steps]
     return page
 
 
@@ -102,10 +103,9 @@ def _mesh(page: Sheet, rated: Rated, wanted: str) -> None:
     pair, helical = rated.pair, rated.helical
     heading(page, helical, N_("Meshing"))
     meshing_steps(page, pair, helical, wanted)
-    gears: tuple[Any, Any] = pair.gears
+    gears, tips = rated.gears, rated.active_tips
     page.both("reference_radius", [g.reference_radius for g in gears], "{m} * {z#} / 2", ISO)
     page.both("base_radius", [g.base_radius for g in gears], "{r#} * cos({alpha})", ISO)
-    tips = rated.active_tips
     page.both("active_tip_diameter", [2 * r for r in tips], "", ISO)
     angles = [math.degrees(math.acos(g.base_radius / r)) for g, r in zip(gears, tips, strict=True)]
     page.both("active_tip_angle_deg", angles, "arccos(2 * {r_b#} / {d_Na#})", ISO)
@@ -151,7 +151,7 @@ def _load_factors(page: Sheet, rated: Rated) -> None:
         page.add("face_exponent", exponent, "{b_h}**2 / (1 + {b_h} + {b_h}**2)", f"{_PART_1}, 7")
         page.add("root_face_load_factor", keys.face_load_factor**exponent, "{K_Hb}**({N_F})", f"{_PART_1}, 7")
     else:
-        page.add("root_face_load_factor", keys.root_face_load_factor, given=True)
+        page.given(root_face_load_factor=keys.root_face_load_factor)
     page.add("transverse_load_factor", keys.transverse_load_factor, given=True)
     own = keys.root_transverse_load_factor
     if own is None:
@@ -170,9 +170,7 @@ def _dynamic_factor(page: Sheet, rated: Rated) -> None:
     parameter = iso6336.speed_parameter(speed, rated.gears[0].number_of_teeth, rated.pair.gear_ratio)
     page.add("accuracy_grade", grade, given=True)
     page.add("speed_parameter", parameter, "{v} * {z1} / 100 * {u} / sqrt(1 + {u}**2)", source)
-    force = page.known["F_t"].value
-    assert isinstance(force, float)
-    line = keys.application_factor * force / rated.width
+    line = keys.application_factor * rated.value(page, "F_t") / rated.width
     usual = max(line, iso6336.LEAST_LINE_LOAD)
     page.add("rated_line_load", usual, "{K_A} * {F_t} / {b}" if usual == line else "", source)
     third = "2" if parameter <= 0.2 else "(2.071 - 0.357 * {v_z})"
@@ -191,23 +189,21 @@ def _torques(page: Sheet, rated: Rated, torque: float) -> None:
     """What torque on the first gear either safety lets through, and the least of them all."""
     keys, found = rated.keys, []
     page.section("Torque allowed on the first gear")
-    for name, symbol in (("least_contact_safety", "S_Hmin"), ("least_bending_safety", "S_Fmin")):
-        if symbol not in page.known:
-            page.given(**{name: getattr(keys, name)})
+    given_once(page, "least_contact_safety", keys.least_contact_safety)
+    given_once(page, "least_bending_safety", keys.least_bending_safety)
     for name, key, least, power in (
         ("contact_torque", "S_H", keys.least_contact_safety, 2),
         ("bending_torque", "S_F", keys.least_bending_safety, 1),
     ):
         for index in (1, 2):
-            safety = page.known.get(f"{key}{index}")
-            if safety is None:
+            if f"{key}{index}" not in page.known:
                 continue
-            assert isinstance(safety.value, float)
-            found.append(torque * (safety.value / least) ** power)
+            safety = rated.value(page, f"{key}{index}")
+            found.append(torque * (safety / least) ** power)
             raised = "**2" if power == 2 else ""
             page.add(name, found[-1], f"{{T1}} * ({{{key}#}} / {{{key}min}}){raised}", gear=index)
-            if safety.value < least:
-                page.notes.append(finding_of(index, Finding(f"strength_{name}", safety.value, least)))
+            if safety < least:
+                page.notes.append(finding_of(index, Finding(f"strength_{name}", safety, least)))
     if found:
         page.add("allowed_torque", min(found))
     else:

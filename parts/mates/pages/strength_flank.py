@@ -10,7 +10,7 @@ from geometry.gears.strength import iso6336
 from geometry.gears.strength.gost21354 import contact_stress
 from geometry.gears.strength.materials import Line
 from parts.base.refusal import REMOVED
-from parts.mates.pages.strength_keys import Rated, each
+from parts.mates.pages.strength_keys import Rated, each, given_once
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
@@ -21,9 +21,8 @@ def zone_step(page: Sheet, rated: Rated, source: str) -> float:
     """Z_H."""
     pair, slant = rated.pair, " * cos({beta_b})" if rated.helix else ""
     value = iso6336.zone_factor(pair.first.rack.pressure_angle, pair.working_pressure_angle, rated.base_helix)
-    page.add(
-        "zone_factor", value, f"sqrt(2{slant} * cos({{alpha_w}}) / (cos({{alpha}})**2 * sin({{alpha_w}})))", source
-    )
+    formula = f"sqrt(2{slant} * cos({{alpha_w}}) / (cos({{alpha}})**2 * sin({{alpha_w}})))"
+    page.add("zone_factor", value, formula, source)
     return value
 
 
@@ -62,9 +61,8 @@ def _single_contact(page: Sheet, rated: Rated) -> tuple[float, float]:
     for index, name in enumerate(("pinion_contact_factor", "wheel_contact_factor")):
         bare, own, mate = rated.contact_parameter(index), index + 1, 2 - index
         if bare is None:
-            page.notes.append(
-                finding_of(own, Finding("strength_single_contact", rated.pair.effective_contact_ratio, 2.0))
-            )
+            ratio = rated.pair.effective_contact_ratio
+            page.notes.append(finding_of(own, Finding("strength_single_contact", ratio, 2.0)))
         else:
             inner = f"(tan({{alpha_Na{own}}}) {firsts[index]}) * (tan({{alpha_Na{mate}}}) {turns[index]})"
             page.add("contact_parameter", bare, f"tan({{alpha_w}}) / sqrt({inner})", source, own)
@@ -125,8 +123,7 @@ def limit_step(
     if hardness is None:
         group = rated.keys.material_group
         raise ParameterError("material_group", group, "needs_other", REMOVED, other="hardness")
-    if f"x_H{index}" not in page.known:
-        page.add("hardness", hardness, gear=index, given=True)
+    given_once(page, "hardness", hardness, index)
     value = line.at(hardness)
     page.add(name, value, f"{line.slope:g} * {{x_H#}} + {line.base:g}", source, index)
     if not line.low <= hardness <= line.high:
@@ -154,8 +151,8 @@ def cycles_step(page: Sheet, rated: Rated, index: int) -> float | None:
 
 def speed_step(page: Sheet, rated: Rated) -> None:
     """n_1, where the page has no load that has told it."""
-    if "n1" not in page.known and rated.keys.speed_rpm is not None:
-        page.add("gear_speed", rated.keys.speed_rpm, gear=1, given=True)
+    if rated.keys.speed_rpm is not None:
+        given_once(page, "gear_speed", rated.keys.speed_rpm, 1)
 
 
 def flank_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
@@ -168,7 +165,6 @@ def flank_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         limits.append(limit_step(page, rated, "contact_limit", each(keys.contact_limit)[index - 1], line, index))
     known = [limit for limit in limits if limit is not None]
     if not known:
-        page.sections.pop()
         return
     films = _films(page, rated, min(known), source)
     for index, (limit, group) in enumerate(zip(limits, groups, strict=True), 1):
@@ -187,13 +183,8 @@ def flank_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         size = each(keys.contact_size_factor)[index - 1]
         page.add("contact_size_factor", size, gear=index, given=True)
         value = limit * life * film * hardened * size
-        page.add(
-            "contact_strength",
-            value,
-            f"{{sigma_Hlim#}} * {{Z_NT#}} * {told} * {{Z_W#}} * {{Z_X#}}",
-            f"{_PART_2}, 5",
-            index,
-        )
+        formula = f"{{sigma_Hlim#}} * {{Z_NT#}} * {told} * {{Z_W#}} * {{Z_X#}}"
+        page.add("contact_strength", value, formula, f"{_PART_2}, 5", index)
         if loaded:
             stress = rated.value(page, f"sigma_H{index}")
             page.add("contact_safety", value / stress, "{sigma_HG#} / {sigma_H#}", f"{_PART_2}, 5", index)
@@ -245,8 +236,7 @@ def _hardening(page: Sheet, rated: Rated, index: int) -> float:
     value, formula = 1.0 if given is None else given, ""
     if given is None and own and mate and not own.is_hard and mate.is_hard and hardness is not None:
         value = iso6336.hardening_factor(hardness)
-        if f"x_H{index}" not in page.known:
-            page.add("hardness", hardness, gear=index, given=True)
+        given_once(page, "hardness", hardness, index)
         formula = "1.2 - ({x_H#} - 130) / 1700" if 130 <= hardness <= 470 else ""
     page.add("hardening_factor", value, formula, source, index, given=given is not None)
     return value

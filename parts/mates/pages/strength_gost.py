@@ -7,7 +7,7 @@ import math
 from geometry.base.findings import Finding
 from geometry.gears.strength import gost21354 as gost
 from parts.mates.pages.strength_flank import cycles_step, overlap_step, zone_step
-from parts.mates.pages.strength_keys import Rated, each
+from parts.mates.pages.strength_keys import Rated, each, given_once
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
@@ -69,11 +69,8 @@ def _flanks(page: Sheet, rated: Rated, *, loaded: bool) -> None:
             stress = rated.value(page, "sigma_H")
             page.add("contact_safety", bears / stress, "{sigma_HG#} / {sigma_H}", GOST, index)
         least = keys.least_contact_safety
-        if "S_Hmin" not in page.known:
-            page.given(least_contact_safety=least)
+        given_once(page, "least_contact_safety", least)
         page.add("allowed_flank_stress", bears / least, "{sigma_HG#} / {S_Hmin}", GOST, index)
-    if not page.sections[-1].steps:
-        page.sections.pop()
 
 
 def _limit(page: Sheet, rated: Rated, index: int, *, contact: bool) -> float | None:
@@ -87,8 +84,7 @@ def _limit(page: Sheet, rated: Rated, index: int, *, contact: bool) -> float | N
     hardness = each(keys.hardness)[index - 1]
     if group is None or group.name not in ("St", "V", "V alloy") or hardness is None:
         return None
-    if f"x_H{index}" not in page.known:
-        page.add("hardness", hardness, gear=index, given=True)
+    given_once(page, "hardness", hardness, index)
     value = (gost.contact_limit if contact else gost.bending_limit)(hardness)
     page.add(name, value, "2 * {x_H#} + 70" if contact else "1.75 * {x_H#}", GOST, index)
     return value
@@ -136,12 +132,9 @@ def _roots(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         page.add("root_strength", bears, formula, GOST, index)
         if found is not None:
             page.add("bending_safety", bears / found, "{sigma_FG#} / {sigma_F#}", GOST, index)
-        if "S_Fmin" not in page.known:
-            page.given(least_bending_safety=keys.least_bending_safety)
+        given_once(page, "least_bending_safety", keys.least_bending_safety)
         formula = "{sigma_FG#} / {S_Fmin}"
         page.add("allowed_root_stress", bears / keys.least_bending_safety, formula, GOST, index)
-    if not page.sections[-1].steps:
-        page.sections.pop()
 
 
 def _form(page: Sheet, rated: Rated, index: int) -> float | None:

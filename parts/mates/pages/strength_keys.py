@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Annotated, Any, Literal, TypeVar, get_type_hints
+from typing import Annotated, Any, Literal, TypeAlias, TypeVar, cast, get_type_hints
 
 import msgspec
 from msgspec import Meta, Struct
@@ -13,7 +13,7 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
-from geometry.gears.strength.materials import Group, Quality
+from geometry.gears.strength.materials import GROUPS, Group, Quality
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle
@@ -25,6 +25,7 @@ from parts.mates.pages.internal import InternalKeys
 from parts.pages.contact_steps import Helical
 from parts.pages.force_steps import DrivenKeys
 from parts.pages.page import Sheet
+from parts.pages.terms import TERMS
 
 T = TypeVar("T")
 K = TypeVar("K", bound=Struct)
@@ -43,11 +44,25 @@ GroupName = Literal[
     "St", "V", "V alloy", "Eh", "IF", "NT", "NV", "NV nitrocarburized", "GTS", "GGG", "GGG ferritic", "GG"
 ]
 Method = Literal["ISO 6336", "ISO 6336:2006", "GOST 21354"]
-
 # msgspec 0.23 crashes where a union has a tuple of two
-_TWO = Meta(min_length=2, max_length=2)
+_Both: TypeAlias = T | Annotated[list[T], Meta(min_length=2, max_length=2)]
+
+
+def _both(text: str, unit: str = "") -> Meta:
+    """The meaning of a key that both gears have."""
+    extra = {"unit": unit} if unit else None
+    return Meta(description=f"{text}; one for both gears, or [first, second]", extra=extra)
+
+
 _METHOD = Meta(description="the standard; ISO 6336 is its edition of 2019")
-_BOTH = "; one for both gears, or [first, second]"
+_DYNAMIC = Meta(description="K_v; default: by accuracy_grade and speed, else 1")
+_PROFILE = Meta(ge=1, le=1.2, description="f_ZCa of ISO 6336-2:2019, helical teeth")
+_CYCLES = Meta(ge=1, le=1e15, description="load cycles of the first gear's teeth")
+_LONG = Meta(ge=0.85, le=1, description="Z_NT and Y_NT at 10^10 cycles")
+_VISCOSITY = size("mm2/s", "of the oil at 40 degrees, for Z_L", above=0, most=1e5)
+_YIELD = _both("of St, V, GTS and GGG, for Y_deltarelT", "MPa")
+_SURFACE = _both("Y_RrelT, by GOST Y_R; default: by root_roughness")
+_GRADIENT = _both("Y_deltarelT, by GOST Y_delta; default: by material or module")
 
 
 class LoadKeys(DrivenKeys, kw_only=True):
@@ -55,130 +70,54 @@ class LoadKeys(DrivenKeys, kw_only=True):
 
     method: Annotated[Method, _METHOD] = "ISO 6336"
     application_factor: Annotated[_Factor, Meta(description="K_A")] = 1.0
-    dynamic_factor: Annotated[_Factor, Meta(description="K_v; default: by accuracy_grade and speed, else 1")] | None = (
-        None
-    )
+    dynamic_factor: Annotated[_Factor, _DYNAMIC] | None = None
     accuracy_grade: Annotated[int, Meta(ge=3, le=12, description="grade of ISO 1328, for K_v and Y_DT")] | None = None
     face_load_factor: Annotated[_Factor, Meta(description="K_Hbeta")] = 1.0
     root_face_load_factor: Annotated[_Factor, Meta(description="K_Fbeta; default: K_Hbeta^N_F")] | None = None
     transverse_load_factor: Annotated[_Factor, Meta(description="K_Halpha")] = 1.0
     root_transverse_load_factor: Annotated[_Factor, Meta(description="K_Falpha; default: K_Halpha")] | None = None
-    profile_factor: Annotated[float, Meta(ge=1, le=1.2, description="f_ZCa of ISO 6336-2:2019, helical teeth")] = 1.0
-    load_cycles: Annotated[float, Meta(ge=1, le=1e15, description="load cycles of the first gear's teeth")] | None = (
-        None
-    )
+    profile_factor: Annotated[float, _PROFILE] = 1.0
+    load_cycles: Annotated[float, _CYCLES] | None = None
     life_hours: Annotated[float, Meta(gt=0, le=1e9, description="life in hours, by speed_rpm")] | None = None
-    long_life_factor: Annotated[float, Meta(ge=0.85, le=1, description="Z_NT and Y_NT at 10^10 cycles")] = 0.85
+    long_life_factor: Annotated[float, _LONG] = 0.85
     pits_allowed: Annotated[bool, Meta(description="some pits are allowed: another line of Z_NT")] = False
-    oil_viscosity: Annotated[float, size("mm2/s", "of the oil at 40 degrees, for Z_L", above=0, most=1e5)] | None = None
+    oil_viscosity: Annotated[float, _VISCOSITY] | None = None
     least_contact_safety: Annotated[_Factor, Meta(description="S_Hmin")] = 1.0
     least_bending_safety: Annotated[_Factor, Meta(description="S_Fmin")] = 1.0
-    material_group: (
-        Annotated[GroupName | Annotated[list[GroupName], _TWO], Meta(description=f"group of ISO 6336-5{_BOTH}")] | None
-    ) = None
-    material_quality: Annotated[
-        Quality | Annotated[list[Quality], _TWO], Meta(description=f"quality of ISO 6336-5{_BOTH}")
-    ] = "MQ"
-    hardness: (
-        Annotated[
-            _Hardness | Annotated[list[_Hardness], _TWO],
-            Meta(description=f"HBW of St and of iron, HV of others, HB by GOST{_BOTH}"),
-        ]
-        | None
-    ) = None
-    contact_limit: (
-        Annotated[
-            _Stress | Annotated[list[_Stress], _TWO],
-            Meta(description=f"sigma_Hlim; default: by group and hardness{_BOTH}", extra={"unit": "MPa"}),
-        ]
-        | None
-    ) = None
-    bending_limit: (
-        Annotated[
-            _Stress | Annotated[list[_Stress], _TWO],
-            Meta(description=f"sigma_Flim; default: by group and hardness{_BOTH}", extra={"unit": "MPa"}),
-        ]
-        | None
-    ) = None
-    yield_strength: (
-        Annotated[
-            _Stress | Annotated[list[_Stress], _TWO],
-            Meta(description=f"of St, V, GTS and GGG, for Y_deltarelT{_BOTH}", extra={"unit": "MPa"}),
-        ]
-        | None
-    ) = None
-    elastic_modulus: Annotated[_Modulus | Annotated[list[_Modulus], _TWO], Meta(description=f"E{_BOTH}")] = _MODULUS
-    poisson_ratio: Annotated[_Poisson | Annotated[list[_Poisson], _TWO], Meta(description=f"nu{_BOTH}")] = _RATIO
-    flank_roughness: (
-        Annotated[
-            _Roughness | Annotated[list[_Roughness], _TWO], Meta(description=f"R_z of the flanks, for Z_R{_BOTH}")
-        ]
-        | None
-    ) = None
-    root_roughness: (
-        Annotated[
-            _Roughness | Annotated[list[_Roughness], _TWO], Meta(description=f"R_z of the fillets, for Y_RrelT{_BOTH}")
-        ]
-        | None
-    ) = None
-    rim_thickness: Annotated[_Rim | Annotated[list[_Rim], _TWO], Meta(description=f"s_R, for Y_B{_BOTH}")] | None = None
-    flank_factor: (
-        Annotated[
-            _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Z_L Z_v Z_R as one; by GOST Z_R Z_v{_BOTH}")
-        ]
-        | None
-    ) = None
-    contact_size_factor: Annotated[
-        _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Z_X of ISO 6336-2{_BOTH}")
-    ] = 1.0
-    hardening_factor: (
-        Annotated[
-            _Factor | Annotated[list[_Factor], _TWO],
-            Meta(description=f"Z_W; default: by hardness on a hard mate{_BOTH}"),
-        ]
-        | None
-    ) = None
-    surface_factor: (
-        Annotated[
-            _Factor | Annotated[list[_Factor], _TWO],
-            Meta(description=f"Y_RrelT, by GOST Y_R; default: by root_roughness{_BOTH}"),
-        ]
-        | None
-    ) = None
-    gradient_factor: (
-        Annotated[
-            _Factor | Annotated[list[_Factor], _TWO],
-            Meta(description=f"Y_deltarelT, by GOST Y_delta; default: by material or module{_BOTH}"),
-        ]
-        | None
-    ) = None
-    reversing_factor: Annotated[
-        _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Y_M, 0.7 of idlers; by GOST K_R{_BOTH}")
-    ] = 1.0
-    form_factor: (
-        Annotated[
-            _Factor | Annotated[list[_Factor], _TWO], Meta(description=f"Y_FS by GOST, which has none of a ring{_BOTH}")
-        ]
-        | None
-    ) = None
+    material_group: Annotated[_Both[GroupName], _both("group of ISO 6336-5")] | None = None
+    material_quality: Annotated[_Both[Quality], _both("quality of ISO 6336-5")] = "MQ"
+    hardness: Annotated[_Both[_Hardness], _both("HBW of St and of iron, HV of others, HB by GOST")] | None = None
+    contact_limit: Annotated[_Both[_Stress], _both("sigma_Hlim; default: by group and hardness", "MPa")] | None = None
+    bending_limit: Annotated[_Both[_Stress], _both("sigma_Flim; default: by group and hardness", "MPa")] | None = None
+    yield_strength: Annotated[_Both[_Stress], _YIELD] | None = None
+    elastic_modulus: Annotated[_Both[_Modulus], _both("E")] = _MODULUS
+    poisson_ratio: Annotated[_Both[_Poisson], _both("nu")] = _RATIO
+    flank_roughness: Annotated[_Both[_Roughness], _both("R_z of the flanks, for Z_R")] | None = None
+    root_roughness: Annotated[_Both[_Roughness], _both("R_z of the fillets, for Y_RrelT")] | None = None
+    rim_thickness: Annotated[_Both[_Rim], _both("s_R, for Y_B")] | None = None
+    flank_factor: Annotated[_Both[_Factor], _both("Z_L Z_v Z_R as one; by GOST Z_R Z_v")] | None = None
+    contact_size_factor: Annotated[_Both[_Factor], _both("Z_X of ISO 6336-2")] = 1.0
+    hardening_factor: Annotated[_Both[_Factor], _both("Z_W; default: by hardness on a hard mate")] | None = None
+    surface_factor: Annotated[_Both[_Factor], _SURFACE] | None = None
+    gradient_factor: Annotated[_Both[_Factor], _GRADIENT] | None = None
+    reversing_factor: Annotated[_Both[_Factor], _both("Y_M, 0.7 of idlers; by GOST K_R")] = 1.0
+    form_factor: Annotated[_Both[_Factor], _both("Y_FS by GOST, which has none of a ring")] | None = None
 
 
 def _loaded(pair: type[K]) -> type[K]:
     """The keys of a pair with those of its load: no struct has two tables of keys for bases."""
     hints = get_type_hints(LoadKeys, include_extras=True)
     own = [f for f in fields_of(LoadKeys) if f.name not in {f.name for f in fields_of(pair)}]
-    more = [(f.name, hints[f.name], f.default) for f in own]
-    made: Any = msgspec.defstruct(
+    made = msgspec.defstruct(
         f"Loaded{pair.__name__}",
-        more,
+        [(f.name, hints[f.name], f.default) for f in own],
         bases=(pair,),
         namespace={"__doc__": "Keys of a pair, its load and its materials."},
         module=__name__,
         kw_only=True,
         forbid_unknown_fields=True,
     )
-    kind: type[K] = made
-    return kind
+    return cast("type[K]", made)
 
 
 LoadedPairKeys, LoadedInternalKeys = _loaded(PairKeys), _loaded(InternalKeys)
@@ -187,6 +126,12 @@ LoadedPairKeys, LoadedInternalKeys = _loaded(PairKeys), _loaded(InternalKeys)
 def each(value: T | list[Any]) -> tuple[T, T]:
     """What a key says of both gears."""
     return (value[0], value[1]) if isinstance(value, list) else (value, value)
+
+
+def given_once(page: Sheet, name: str, value: float, gear: int = 0) -> None:
+    """What is given, where the page has not told it yet."""
+    if f"{TERMS[name].key}{gear or ''}" not in page.known:
+        page.add(name, value, gear=gear, given=True)
 
 
 class Rated(Record, dict=True):
@@ -210,8 +155,6 @@ class Rated(Record, dict=True):
     @property
     def groups(self) -> tuple[Group | None, Group | None]:
         """The groups of both materials, where they are given."""
-        from geometry.gears.strength.materials import GROUPS
-
         one, two = (None if name is None else GROUPS[name] for name in each(self.keys.material_group))
         return one, two
 

@@ -30,9 +30,7 @@ def root_stress(page: Sheet, rated: Rated, *, loaded: bool) -> None:
     if newest:
         share = iso6336.root_load_share(ratio, rated.overlap)
         page.add("root_load_share", share, _share_formula(ratio, rated.overlap), _FORM)
-    forms = []
-    for index, gear in enumerate(rated.gears, 1):
-        forms.append(_form(page, rated, gear, index, ratio, share, newest=newest))
+    forms = [_form(page, rated, gear, k, ratio, share, newest=newest) for k, gear in enumerate(rated.gears, 1)]
     page.section("Roots: bending stress")
     slant = iso6336.root_helix_factor(helix, rated.overlap, newest=newest)
     formula = ""
@@ -153,12 +151,8 @@ def _rack_steps(
 
 def _rim(page: Sheet, rated: Rated, gear: SpurGear | RingGear, index: int) -> float:
     """Y_B."""
-    rim, height, ring = (
-        each(rated.keys.rim_thickness)[index - 1],
-        abs(gear.tip_radius - gear.root_radius),
-        gear.sign < 0,
-    )
-    formula = ""
+    rim, height = each(rated.keys.rim_thickness)[index - 1], abs(gear.tip_radius - gear.root_radius)
+    formula, ring = "", gear.sign < 0
     if rim is not None:
         page.add("rim_thickness", rim, gear=index, given=True)
         if not ring:
@@ -200,8 +194,6 @@ def root_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         if loaded:
             stress = rated.value(page, f"sigma_F{index}")
             page.add("bending_safety", value / stress, "{sigma_FG#} / {sigma_F#}", f"{_PART_3}, 5", index)
-    if not page.sections[-1].steps:
-        page.sections.pop()
 
 
 def _notch(page: Sheet, rated: Rated, index: int) -> float:
@@ -212,13 +204,11 @@ def _notch(page: Sheet, rated: Rated, index: int) -> float:
         page.add("relative_notch_factor", given, gear=index, given=True)
         return given
     slip = None if group is None else group.slip_layer(each(keys.yield_strength)[index - 1])
-    if slip is None:
-        value = 1.0 if notch >= 1.5 else 0.95
-        page.add("relative_notch_factor", value, "", source, index)
-        return value
-    page.add("slip_layer", slip, "", source, index)
-    value = iso6336.notch_sensitivity(notch, slip)
-    formula = "(1 + sqrt({rho_s#} * (1 + 2 * {q_s#}) / 5)) / (1 + sqrt({rho_s#} * 1.2))"
+    value, formula = 1.0 if notch >= 1.5 else 0.95, ""
+    if slip is not None:
+        page.add("slip_layer", slip, "", source, index)
+        value = iso6336.notch_sensitivity(notch, slip)
+        formula = "(1 + sqrt({rho_s#} * (1 + 2 * {q_s#}) / 5)) / (1 + sqrt({rho_s#} * 1.2))"
     page.add("relative_notch_factor", value, formula, source, index)
     return value
 
