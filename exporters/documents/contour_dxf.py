@@ -6,11 +6,14 @@ import math
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geometry.gears.shifts.external import BlockingContour
 from parts.base.texts import Words
 from parts.pages.contour_picture import clipped, grid_step, kinds_shown, line_title, region_text, tool_texts
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
 
 # mm of the drawing for one module of shift
 SCALE = 100.0
@@ -46,7 +49,7 @@ def write_contour_dxf(
 class _Page:
     """A drawing that counts what is put on it; points in modules, texts in mm."""
 
-    def __init__(self, drawing: Any, colours: dict[str, int]) -> None:
+    def __init__(self, drawing: Drawing, colours: dict[str, int]) -> None:
         self.drawing, self.space, self.colours = drawing, drawing.modelspace(), colours
         self.counts = Counter[str]()
 

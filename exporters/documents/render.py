@@ -186,6 +186,10 @@ def _csv(sheet: Sheet, told: Words) -> str:
     return "\n".join(map(csv_table, sheet.tables))
 
 
+# those of a name, those of each gear under first and second
+_Values = list[object] | dict[str, list[object]]
+
+
 def _keep(every: dict[str, Any], step: Step) -> None:
     """The value beside others of its name, and under first or second where it belongs to a gear."""
     if step.gear:
@@ -194,12 +198,12 @@ def _keep(every: dict[str, Any], step: Step) -> None:
         every.setdefault(step.name, []).append(_finite(step.value))
 
 
-def _each(found: Any, told: Callable[[list[object]], object]) -> object:
+def _each(found: _Values, told: Callable[[list[object]], object]) -> object:
     """What is told of the values of a name, of each gear's where they are its."""
     return {gear: told(row) for gear, row in found.items()} if isinstance(found, dict) else told(found)
 
 
-def _repeats(found: Any) -> bool:
+def _repeats(found: _Values) -> bool:
     return any(len(row) > 1 for row in (found.values() if isinstance(found, dict) else [found]))
 
 

@@ -324,8 +324,8 @@ def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
 
 
 def _meshing(mating: Toothed, picture: MeshingPicture, wanted: Request, asked: Asked) -> Expected:
-    pair: Any = mating.pair
-    language = asked.language
+    pair, language = mating.pair, asked.language
+    assert pair is not None
     parts = [wanted.parts[str(wanted.scene.instances[name].part)] for name in (mating.first, mating.second)]
     facts = _facts(mating, picture, language, parts)
     canvas, view = meshing_canvas(picture, mating.module, facts, asked)

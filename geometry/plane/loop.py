@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
 from functools import cached_property
 from itertools import combinations
 
@@ -144,15 +143,32 @@ class Loop(Record, dict=True):
         return ()
 
 
-def about_two(radii: tuple[float, float], distance: float, idlers: Sequence[Wheel]) -> tuple[Loop, int]:
-    """The loop about a wheel at the origin, one on +x and idlers, and which wheel of it the second one is.
+class DriveLoop(Loop):
+    """That of a drive: the ``second`` of both that carry is so many wheels behind the first; ``idlers`` as told."""
+
+    second: int
+    idlers: tuple[Wheel, ...]
+
+    @property
+    def both_wraps(self) -> tuple[float, float]:
+        """Angles of wrap on both that carry."""
+        return self.wraps[0], self.wraps[self.second]
+
+    @property
+    def idler_wraps(self) -> tuple[float, ...]:
+        """Those on the idlers, as they are told."""
+        return tuple(self.wraps[self.wheels.index(idler)] for idler in self.idlers)
+
+
+def about_two(radii: tuple[float, float], distance: float, idlers: tuple[Wheel, ...]) -> DriveLoop:
+    """The loop about a wheel at the origin, one on +x and idlers.
 
     What of the idlers stands on the left of the line of centres is in the strand on the left.
     """
     along = sorted(idlers, key=lambda idler: idler.centre.real)
     left, right = ([w for w in along if (w.centre.imag > 0) == is_left] for is_left in (True, False))
     first, second = (Wheel(complex(x), r) for x, r in zip((0.0, distance), radii, strict=True))
-    return Loop((first, *left, second, *reversed(right))), 1 + len(left)
+    return DriveLoop((first, *left, second, *reversed(right)), 1 + len(left), idlers)
 
 
 def _distance(point: complex, start: complex, end: complex) -> float:

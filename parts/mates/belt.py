@@ -85,13 +85,13 @@ class BeltMating(Wrapped):
     def quantities(self) -> dict[str, Any]:
         """Teeth and length of the belt, distance, ratio, wrap, teeth in mesh, what the belt is longer than taut, mm."""
         mesh = self.mesh
-        about = idler_quantities(mesh.drive.idler_wraps, mesh.taut_idler) if mesh.idlers else {}
+        about = idler_quantities(mesh.drive.loop.idler_wraps, mesh.taut_idler) if mesh.idlers else {}
         return {
             "number_of_belt_teeth": mesh.belt_teeth,
             "belt_length": mesh.belt_teeth * mesh.pitch,
             "working_centre_distance": self.distance,
             "gear_ratio": self.teeth[1] / self.teeth[0],
-            "wrap_deg": math.degrees(mesh.drive.wrap),
+            "wrap_deg": math.degrees(min(mesh.drive.loop.both_wraps)),
             "teeth_in_mesh": mesh.in_mesh,
             "belt_slack": max(mesh.slack, 0.0),
             "rim_gap": mesh.rim_gap,

@@ -104,12 +104,12 @@ class ChainMating(Wrapped):
         """Links, distance, ratio, wrap, what the chain is longer than a taut one, and what is between the tips, mm."""
         mesh = self.mesh
         teeth = mesh.teeth
-        about = idler_quantities(mesh.drive.idler_wraps, mesh.taut_idler) if mesh.idlers else {}
+        about = idler_quantities(mesh.drive.loop.idler_wraps, mesh.taut_idler) if mesh.idlers else {}
         return {
             "number_of_links": self.mesh.links,
             "working_centre_distance": self.distance,
             "gear_ratio": teeth[1] / teeth[0],
-            "wrap_deg": math.degrees(self.mesh.drive.wrap),
+            "wrap_deg": math.degrees(min(self.mesh.drive.loop.both_wraps)),
             # a taut chain is none but for rounding
             "chain_slack": max(round(self.mesh.slack, 9), 0.0),
             "tip_gap": self.mesh.tip_gap,

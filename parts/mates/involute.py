@@ -10,7 +10,7 @@ import cmath
 import math
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, TypeVar, cast
 
 from msgspec import Meta
 
@@ -179,7 +179,7 @@ class GearMating(Toothed):
         return *found, *(Finding(f"tips_shortened_{role}", at, had) for role, at, had in made if at != had)
 
     @staticmethod
-    def _tips(pair: Any) -> list[float]:
+    def _tips(pair: Pair) -> list[float]:
         """The tip diameters of both gears, mm."""
         return [2 * gear.tip_radius for gear in pair.gears]
 
@@ -615,7 +615,7 @@ class YieldingPair(InvolutePair[K, A, B, M], Generic[K, A, B, M]):
         made = super().mating(keys, first, second)
         one, two = (replace(e, thing=replace(e.thing, given_tip_diameter=_given(e))) for e in (first, second))
         try:
-            alone: Any = self.made(keys, one, two, keys.working_centre_distance).pair
+            alone = cast("ExternalPair | InternalPair", self.made(keys, one, two, keys.working_centre_distance).pair)
             yields = any(_off_roots(alone, first, second))
         except GeometryError:
             # pointed with the tip that its keys give it
@@ -623,7 +623,9 @@ class YieldingPair(InvolutePair[K, A, B, M], Generic[K, A, B, M]):
         return replace(made, alone=alone) if yields else made
 
 
-def _off_roots(pair: Any, first: End[Any], second: End[Any]) -> tuple[float | None, float | None]:
+def _off_roots(
+    pair: ExternalPair | InternalPair, first: End[Any], second: End[Any]
+) -> tuple[float | None, float | None]:
     """Tip radii, mm, of both ends of a pair that keep off; None: as they are, as one is whose tip is given."""
     tips = pair.tips_off_roots()
     one, two = tips[::-1] if first.kind == "ring_gear" else tips

@@ -96,7 +96,7 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
     return made
 
 
-def _in_a_line(words: Any) -> Any:
+def _in_a_line(words: object) -> object:
     """Words, in whatever languages, whose white space is plain blanks."""
     if isinstance(words, dict):
         return {key: _in_a_line(told) for key, told in words.items()}

@@ -102,7 +102,7 @@ def _handed_on(keys: RecipeKeys, made: Expansion) -> dict[str, str]:
     return {f"{at}.{key}": key for at, row in rows for key, value in row.items() if key in own and own[key] == value}
 
 
-def _made_good(recipe: Recipe[Any], keys: Any, refusal: ParameterError) -> ParameterError:
+def _made_good(recipe: Recipe[Any], keys: RecipeKeys, refusal: ParameterError) -> ParameterError:
     """The refusal with a value of which the assembly is made, from its own limit on; none where there is none."""
 
     def works(value: object) -> bool:

@@ -44,7 +44,7 @@ def _named(table: dict[str, Any]) -> Iterator[tuple[str, str]]:
             yield key, told["file"]
 
 
-def _read(table: Any, source: str, place: str) -> Any:
+def _read(table: object, source: str, place: str) -> object:
     if not isinstance(table, dict):
         return table
     found = dict(table)

@@ -16,7 +16,7 @@ from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex
 from geometry.gears.belts.pulley import Pulley
-from geometry.plane.loop import Loop, Wheel, about_two
+from geometry.plane.loop import DriveLoop, Wheel, about_two
 
 # of the smaller pulley that carry at least, by makers' handbooks
 _LEAST_IN_MESH = 6
@@ -32,33 +32,9 @@ class BeltDrive(Record, dict=True):
     idlers: tuple[Wheel, ...] = ()
 
     @cached_property
-    def _about(self) -> tuple[Loop, int]:
-        return about_two(self.radii, self.distance, self.idlers)
-
-    @property
-    def loop(self) -> Loop:
+    def loop(self) -> DriveLoop:
         """The belt's pitch line, the first pulley first."""
-        return self._about[0]
-
-    @property
-    def second(self) -> int:
-        """Which wheel of the loop the second pulley is."""
-        return self._about[1]
-
-    @property
-    def wraps(self) -> tuple[float, float]:
-        """Angles of wrap on both pulleys, rad."""
-        return self.loop.wraps[0], self.loop.wraps[self.second]
-
-    @property
-    def wrap(self) -> float:
-        """The smaller angle of wrap, rad."""
-        return min(self.wraps)
-
-    @property
-    def idler_wraps(self) -> tuple[float, ...]:
-        """Angles of wrap on the idlers as they are told, rad."""
-        return tuple(self.loop.wraps[self.loop.wheels.index(idler)] for idler in self.idlers)
+        return about_two(self.radii, self.distance, self.idlers)
 
     @property
     def length(self) -> float:
@@ -68,7 +44,7 @@ class BeltDrive(Record, dict=True):
     def second_phase(self, first: float, pitch: float) -> float:
         """Phase of the second near 0, at one of the first near pi: whole pitches over the taut upper strand, rad."""
         # from the first's groove to where the second's polar angle is 0
-        there = self.loop.way(self.second, 0.0) - self.loop.way(0, first) + self.length
+        there = self.loop.way(self.loop.second, 0.0) - self.loop.way(0, first) + self.length
         return (there - pitch * round(there / pitch)) / self.radii[1]
 
     def teeth(self, first: float, pitch: float, count: int) -> Complex:
@@ -123,7 +99,7 @@ class BeltMesh(Record):
     @property
     def in_mesh(self) -> float:
         """Teeth within the angle of wrap, of the pulley that has fewer of them."""
-        wrapped = zip(self.pulleys, self.drive.wraps, strict=True)
+        wrapped = zip(self.pulleys, self.drive.loop.both_wraps, strict=True)
         return min(p.number_of_teeth * wrap / (2 * math.pi) for p, wrap in wrapped)
 
     @property

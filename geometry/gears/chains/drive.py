@@ -22,7 +22,7 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
 from geometry.gears.chains.sprocket import Sprocket, sprocket_side
 from geometry.gears.mesh.search import PairContact, flanks_contact, gear_outline
-from geometry.plane.loop import Loop, Wheel, about_two
+from geometry.plane.loop import DriveLoop, Wheel, about_two
 
 # rounds until a strand stands on both polygons
 _MOST_ROUNDS = 64
@@ -77,33 +77,9 @@ class ChainDrive(Record, dict=True):
         return 2 * math.pi / self.teeth[0], 2 * math.pi / self.teeth[1]
 
     @cached_property
-    def _about(self) -> tuple[Loop, int]:
-        return about_two(self.radii, self.distance, self.idlers)
-
-    @property
-    def loop(self) -> Loop:
+    def loop(self) -> DriveLoop:
         """About the pitch circles."""
-        return self._about[0]
-
-    @property
-    def second(self) -> int:
-        """Which wheel of the loop the second sprocket is."""
-        return self._about[1]
-
-    @property
-    def wrap(self) -> float:
-        """The smaller angle of wrap of both sprockets, rad."""
-        return min(self.wraps)
-
-    @property
-    def wraps(self) -> tuple[float, float]:
-        """Angles of wrap on both sprockets, by the pitch circles, rad."""
-        return self.loop.wraps[0], self.loop.wraps[self.second]
-
-    @property
-    def idler_wraps(self) -> tuple[float, ...]:
-        """Angles of wrap on the idlers as they are told, rad."""
-        return tuple(self.loop.wraps[self.loop.wheels.index(idler)] for idler in self.idlers)
+        return about_two(self.radii, self.distance, self.idlers)
 
     @cached_property
     def _turns(self) -> tuple[tuple[float, float], ...]:
@@ -174,11 +150,11 @@ class ChainDrive(Record, dict=True):
 
     def above(self, first: float, second: float) -> float:
         """Links from seat 0 of the first over the upper side to seat 0 of the second, where that is taut."""
-        return self._along(range(self.second), first, second)
+        return self._along(range(self.loop.second), first, second)
 
     def below(self, first: float, second: float) -> float:
         """Links from seat 0 of the second over the lower side to seat 0 of the first."""
-        return self._along(range(self.second, len(self.loop.wheels)), second, first)
+        return self._along(range(self.loop.second, len(self.loop.wheels)), second, first)
 
     def play(self, first: float, links: int) -> Play:
         """The second's play at a phase of the first near pi."""
@@ -206,7 +182,7 @@ class ChainDrive(Record, dict=True):
 
         Strands that are slack hang in arcs outwards.
         """
-        sides = range(self.second), range(self.second, len(self.loop.wheels))
+        sides = range(self.loop.second), range(self.loop.second, len(self.loop.wheels))
         phases, counts = list[float](), dict[int, int]()
         for side, ends, many in zip(sides, ((first, second), (second, first)), (whole, links - whole), strict=True):
             found, taut = self.side(side, *ends)
@@ -401,7 +377,7 @@ class ChainMesh(Record):
 
     def findings(self) -> tuple[Finding, ...]:
         """An odd number of links, little wrap, a chain that hangs loose."""
-        found, wrap = [], math.degrees(self.drive.wrap)
+        found, wrap = [], math.degrees(min(self.drive.loop.both_wraps))
         if self.links % 2:
             found.append(Finding("odd_number_of_links", self.links, 0.0))
         if wrap < LEAST_WRAP_DEG:

@@ -106,7 +106,7 @@ class Asked(Record):
     """A key that may be to blame: its name and value, and values that are tried in its place."""
 
     name: str
-    value: Any
+    value: float | str | list[float]
     trials: Sequence[Any] = ()
 
 

@@ -115,8 +115,8 @@ def _length(page: Sheet, mesh: BeltMesh, distance: float | None) -> None:
     if mesh.idlers:
         page.add("taut_loop_length", drive.length)
         page.add("belt_slack", max(mesh.slack, 0.0), "{L_b} - {L_0}")
-        page.both("loop_wrap_deg", [math.degrees(wrap) for wrap in drive.wraps])
-        idler_steps(page, drive.idler_wraps, mesh.taut_idler)
+        page.both("loop_wrap_deg", [math.degrees(wrap) for wrap in drive.loop.both_wraps])
+        idler_steps(page, drive.loop.idler_wraps, mesh.taut_idler)
         page.add("teeth_in_mesh", mesh.in_mesh)
         return
     near = textbook_distance(drive.radii, length)
@@ -129,6 +129,6 @@ def _length(page: Sheet, mesh: BeltMesh, distance: float | None) -> None:
         page.add("belt_slack", max(mesh.slack, 0.0))
     nearest = "{a}" if distance is not None else "{a_0}"
     wrap = f"pi - 2 * arcsin(abs({{d2}} - {{d1}}) / (2 * {nearest}))"
-    page.add("belt_wrap_deg", math.degrees(drive.wrap), wrap)
+    page.add("belt_wrap_deg", math.degrees(min(drive.loop.both_wraps)), wrap)
     least = "{z1}" if mesh.pulleys[0].number_of_teeth <= mesh.pulleys[1].number_of_teeth else "{z2}"
     page.add("teeth_in_mesh", mesh.in_mesh, f"{least} * {{alpha_1}} / (2 * pi)")

@@ -120,8 +120,8 @@ def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:
         page.add("number_of_links", mesh.links)
         page.add("taut_loop_length", mesh.drive.longest() * mesh.pitch)
         page.add("chain_slack", mesh.slack, "{L} * {p} - {L_0}")
-        page.both("loop_wrap_deg", [math.degrees(wrap) for wrap in mesh.drive.wraps])
-        idler_steps(page, mesh.drive.idler_wraps, mesh.taut_idler)
+        page.both("loop_wrap_deg", [math.degrees(wrap) for wrap in mesh.drive.loop.both_wraps])
+        idler_steps(page, mesh.drive.loop.idler_wraps, mesh.taut_idler)
         return
     if distance is not None:
         formula = f"2 * {{a}} / {{p}} + ({{z1}} + {{z2}}) / 2 + {square} * {{p}} / {{a}}"
@@ -140,7 +140,7 @@ def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:
         page.add("chain_slack", mesh.slack)
     nearest = "{a}" if distance is not None else "{a_0}"
     wrap = f"pi - 2 * arcsin(abs({{d2}} - {{d1}}) / (2 * {nearest}))"
-    page.add("wrap_deg", math.degrees(mesh.drive.wrap), wrap)
+    page.add("wrap_deg", math.degrees(min(mesh.drive.loop.both_wraps)), wrap)
 
 
 def _speeds(page: Sheet, mesh: ChainMesh, speed: float) -> None:

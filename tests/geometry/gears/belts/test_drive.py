@@ -54,7 +54,7 @@ def test_teeth_of_the_belt_stand_in_grooves_of_both(teeth: tuple[int, int], coun
         for axis, radius, phase, z in zip((0.0, drive.distance), drive.radii, phases, teeth, strict=True):
             seated = places[np.abs(np.abs(places - axis) - radius) < 1e-9]
             share = (np.angle(seated - axis) - phase) * z / (2 * math.pi)
-            assert len(seated) >= drive.wrap / (2 * math.pi) * z - 1
+            assert len(seated) >= min(drive.loop.both_wraps) / (2 * math.pi) * z - 1
             assert np.abs(share - np.round(share)).max() < 1e-7
 
 

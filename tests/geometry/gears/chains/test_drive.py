@@ -153,7 +153,7 @@ def test_taut_chains_about_an_idler_inside_are_hulls_of_three_polygons() -> None
     drive = about(INSIDE).drive
     for first in math.pi + np.linspace(-0.5, 0.5, 9) * drive.steps[0]:
         second, whole = drive.taut(first)
-        phases, counts = drive.side(range(drive.second), first, second)
+        phases, counts = drive.side(range(drive.loop.second), first, second)
         assert [len(phases), len(counts)] == [2, 1]
         links = [drive.links(0, *phases), drive.links(1, phases[1], second)]
         assert links == pytest.approx([round(x) for x in links], rel=1e-9)
