@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
@@ -21,6 +22,7 @@ K = TypeVar("K", bound=Struct)
 P = TypeVar("P")
 # whose keys they are in refusals
 PLACE = "calc"
+_PLAIN_LIST = re.compile(r"\[([^][{}\"'=]*[^][{}\"'=\s,][^][{}\"'=]*)\]")
 # the bodies of a pair, before whose keys these stand
 GEARS = ("first", "second")
 
@@ -69,11 +71,15 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
 
 
 def toml_value(text: str) -> Any:
-    """A value as TOML has it; what is none, a number of thousands of digits and dates are plain text."""
+    """A value as TOML has it; what is none, a number of thousands of digits and dates are plain text.
+
+    A list of plain words is one too, as no shell leaves their quotes.
+    """
     try:
         parsed = tomllib.loads(f"v = {text}")
     except (ValueError, RecursionError):
-        return text
+        words = _PLAIN_LIST.fullmatch(text)
+        return [toml_value(word.strip()) for word in words[1].split(",")] if words else text
     return msgspec.to_builtins(parsed["v"]) if set(parsed) == {"v"} else text
 
 

@@ -143,7 +143,11 @@ def pair_table(table: Mapping[str, Any], pair: type[Struct], topic: str) -> dict
         if key not in keys_of(pair):
             like = counted_over(key, made[key], known, made) or meant(key, known)
             raise SceneError(PLACE, f"{topic}.{key}", made[key], "unknown_key", like, known=known)
-    for name in GEARS:
+    for name, body in zip(GEARS, bodies, strict=True):
         if name not in made:
             raise SceneError(PLACE, f"{topic}.{name}", None, "gear_missing", None, name=name)
+        own = made[name] if isinstance(made[name], dict) else {}
+        for key in own:
+            if key in keys_of(pair) and key not in keys_of(body):
+                raise SceneError(PLACE, f"{topic}.{name}.{key}", own[key], "of_the_pair", None, gear=name)
     return made

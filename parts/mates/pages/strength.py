@@ -95,6 +95,8 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
         _torques(page, rated, torque)
         _summary(page)
     page.sections = [section for section in page.sections if section.steps]
+    if rated.unused:
+        page.note(N_("{method} has no {keys}: not used"), method=rated.keys.method, keys=", ".join(rated.unused))
     return page
 
 

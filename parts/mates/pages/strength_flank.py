@@ -128,8 +128,8 @@ def limit_step(
     page.add(name, value, f"{line.slope:g} * {{x_H#}} + {line.base:g}", source, index)
     if not line.low <= hardness <= line.high:
         near = line.low if hardness < line.low else line.high
-        note = finding_of(index, Finding("strength_hardness", hardness, near))
-        page.notes += [note] if note not in page.notes else []
+        code = f"strength_hardness_{'contact' if name == 'contact_limit' else 'bending'}"
+        page.notes.append(finding_of(index, Finding(code, hardness, near)))
     return value
 
 
@@ -173,6 +173,8 @@ def flank_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         cycles, life = cycles_step(page, rated, index), 1.0
         if cycles is not None and group is not None:
             life = iso6336.life_factor(group.contact_knots(pits=keys.pits_allowed), cycles, keys.long_life_factor)
+        if cycles is not None and group is None:
+            page.notes.append(finding_of(index, Finding("strength_life_contact", 1.0, 0.0)))
         page.add("contact_life_factor", life, "", f"{_PART_2}, 11", index, symbol="Z_NT", key="Z_NT")
         own = each(keys.flank_factor)[index - 1]
         film, told = films, "{Z_L} * {Z_v} * {Z_R}"

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+from geometry.base.errors import ParameterError
 from geometry.base.findings import Finding
 from geometry.gears.strength import gost21354 as gost
+from parts.base.refusal import REMOVED
 from parts.mates.pages.strength_flank import cycles_step, overlap_step, zone_step
 from parts.mates.pages.strength_keys import Rated, each, given_once
 from parts.pages.page import Sheet
@@ -53,6 +55,8 @@ def _flanks(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         if cycles is not None and hardness is not None:
             page.add("contact_limit_cycles", gost.contact_cycles(hardness), "", GOST, index)
             life = gost.contact_life(cycles, gost.contact_cycles(hardness), hard=hard)
+        if cycles is not None and hardness is None:
+            page.notes.append(finding_of(index, Finding("strength_life_hardness", 1.0, 0.0)))
         page.add("gost_contact_life_factor", life, "", GOST, index)
         given, film = each(keys.flank_factor)[index - 1], 1.0
         if given is not None:
@@ -74,7 +78,13 @@ def _flanks(page: Sheet, rated: Rated, *, loaded: bool) -> None:
 
 
 def _limit(page: Sheet, rated: Rated, index: int, *, contact: bool) -> float | None:
-    """A limit that is given, or that of normalized or quenched and tempered steel by its hardness."""
+    """A limit that is given, or that of normalized or quenched and tempered steel by its hardness.
+
+    Raises
+    ------
+    ParameterError
+        Such steel without a hardness.
+    """
     keys, group = rated.keys, rated.groups[index - 1]
     name = "contact_limit" if contact else "fatigue_limit_bending"
     given = each(keys.contact_limit if contact else keys.bending_limit)[index - 1]
@@ -82,8 +92,14 @@ def _limit(page: Sheet, rated: Rated, index: int, *, contact: bool) -> float | N
         page.add(name, given, gear=index, given=True)
         return given
     hardness = each(keys.hardness)[index - 1]
-    if group is None or group.name not in ("St", "V", "V alloy") or hardness is None:
+    if group is None:
         return None
+    if group.name not in ("St", "V", "V alloy"):
+        code = f"strength_gost_{'contact' if contact else 'bending'}"
+        page.notes.append(finding_of(index, Finding(code, 0.0, 0.0)))
+        return None
+    if hardness is None:
+        raise ParameterError("material_group", keys.material_group, "needs_other", REMOVED, other="hardness")
     given_once(page, "hardness", hardness, index)
     value = (gost.contact_limit if contact else gost.bending_limit)(hardness)
     page.add(name, value, "2 * {x_H#} + 70" if contact else "1.75 * {x_H#}", GOST, index)

@@ -104,6 +104,16 @@ class LoadKeys(DrivenKeys, kw_only=True):
     form_factor: Annotated[_Both[_Factor], _both("Y_FS by GOST, which has none of a ring")] | None = None
 
 
+_ISO: tuple[Method, ...] = ("ISO 6336", "ISO 6336:2006")
+# of keys that not every method has
+METHODS: dict[str, tuple[Method, ...]] = {
+    "accuracy_grade": _ISO, "profile_factor": ("ISO 6336",), "long_life_factor": _ISO, "pits_allowed": _ISO,
+    "oil_viscosity": _ISO, "material_quality": _ISO, "yield_strength": _ISO, "elastic_modulus": _ISO,
+    "poisson_ratio": _ISO, "flank_roughness": _ISO, "root_roughness": _ISO, "rim_thickness": _ISO,
+    "contact_size_factor": _ISO, "hardening_factor": _ISO, "form_factor": ("GOST 21354",),
+}  # fmt: skip
+
+
 def _loaded(pair: type[K]) -> type[K]:
     """The keys of a pair with those of its load: no struct has two tables of keys for bases."""
     hints = get_type_hints(LoadKeys, include_extras=True)
@@ -212,6 +222,13 @@ class Rated(Record, dict=True):
     def force(self, torque: float) -> float:
         """F_t, N, of a torque on the first gear, N m."""
         return 1000 * torque / self.pair.first.reference_radius
+
+    @property
+    def unused(self) -> list[str]:
+        """Keys that are given and that the method has not."""
+        usual = {f.name: f.default for f in fields_of(LoadKeys)}
+        without = (name for name, methods in METHODS.items() if self.keys.method not in methods)
+        return [name for name in without if getattr(self.keys, name) != usual[name]]
 
     def contact_parameter(self, index: int) -> float | None:
         """M_1 or M_2: the stress where single contact of a gear begins against that at the pole, by the curvatures.

@@ -182,6 +182,8 @@ def root_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
         cycles, life = cycles_step(page, rated, index), 1.0
         if cycles is not None and group is not None:
             life = iso6336.life_factor(group.bending_knots, cycles, keys.long_life_factor)
+        if cycles is not None and group is None:
+            page.notes.append(finding_of(index, Finding("strength_life_bending", 1.0, 0.0)))
         page.add("root_life_factor", life, "", f"{_PART_3}, 12", index)
         sensitive, rough = _notch(page, rated, index), _surface(page, rated, index)
         size = 1.0 if group is None else iso6336.size_factor(group, rated.normal_module)

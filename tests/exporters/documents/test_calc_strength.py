@@ -163,6 +163,25 @@ def test_a_list_has_the_first_gears_value_first(key: str, one: object, two: obje
     assert any(first[name]["first"] != second[name]["first"] for name in names)
 
 
+def test_lists_of_words_go_through_any_shell() -> None:
+    """Of material_group=["V","Eh"] it leaves [V,Eh], which was refused."""
+    rest = (*PAIR, "torque=20", "hardness=[200, 700]", "load_cycles=1e6")
+    whole = values(*rest, 'material_group=["V","Eh"]', 'material_quality=["ML","ME"]')
+    assert values(*rest, "material_group=[V,Eh]", "material_quality=[ML, ME]") == whole
+    assert values(*rest, "material_group=[V alloy,Eh]") == values(*rest, 'material_group=["V alloy", "Eh"]')
+    assert values(*rest, "material_group=[V,V]") != whole
+    _, refused = made([*PAIR, "material_group=[V,]"])
+    assert refused is not None
+    assert refused.key == "strength.material_group[2]"
+
+
+def test_a_key_of_both_gears_is_no_key_of_one() -> None:
+    """It was an unknown one, beside a list of those of a gear."""
+    _, refused = made([*PAIR, "second.material_group=V"])
+    assert refused is not None
+    assert "without second. before it" in sentence(refused, "en")
+
+
 def test_both_gears_stand_in_a_table() -> None:
     keys = (*PAIR, "torque=30", "contact_limit=1300", "bending_limit=400")
     found = values(*keys)
@@ -211,6 +230,15 @@ def test_the_load_helps_no_tooth() -> None:
         ((*PAIR, "basic_rack.tip_radius_coefficient=0", "profile_shift_coefficient=0.8"), "outside 1 to 8"),
         ((*PAIR, "torque=10", "speed_rpm=60000", "accuracy_grade=6"), "is beyond 3 m/s"),
         ((*RING, GOST), "no formula for Y_FS of a ring"),
+        ((*PAIR, "torque=10", "material_group=V", "hardness=250"), "of its group in contact"),
+        ((*PAIR, "torque=10", "material_group=V", "hardness=250"), "of its group in bending"),
+        ((*PAIR, "form_factor=3", "pits_allowed=true"), "ISO 6336 has no form_factor: not used"),
+        ((*PAIR, GOST, "oil_viscosity=100", "pits_allowed=true"), "has no pits_allowed, oil_viscosity: not used"),
+        ((*PAIR, "method=ISO 6336:2006", "profile_factor=1.1"), "ISO 6336:2006 has no profile_factor: not used"),
+        ((*PAIR, GOST, "material_group=Eh"), "without bending_limit the root has no safety"),
+        ((*PAIR, "contact_limit=900", "load_cycles=1e5"), "gear 2: the factor of life in contact is taken as 1"),
+        ((*PAIR, "bending_limit=900", "load_cycles=1e4"), "gear 2: the factor of life in bending is taken as 1"),
+        ((*PAIR, "contact_limit=900", "load_cycles=1e4", GOST), "it needs hardness"),
     ],
 )  # fmt: skip
 def test_what_is_remarked(typed: tuple[str, ...], note: str) -> None:
@@ -235,6 +263,8 @@ def test_what_is_remarked(typed: tuple[str, ...], note: str) -> None:
         (("hardnes=200",), "strength.hardnes"),
         (("working_centre_distance=120", "profile_shift_coefficient=0"), "strength.working_centre_distance"),
         (("first.pressure_angle_deg=25",), "strength.second.pressure_angle_deg"),
+        (("first.hardness=250",), "strength.first.hardness"),
+        (("material_group=V", GOST), "strength.material_group"),
         (("first.profile_shift_coefficient=-9",), "strength.first.profile_shift_coefficient"),
     ],
 )
