@@ -120,18 +120,30 @@ class Loop(Record, dict=True):
         reached = abs(found.length - length) < _SAME * length
         return found if reached and not found.missed() else None
 
+    @property
+    def meeting(self) -> tuple[int, ...]:
+        """Two wheels that meet, the later one first; () if none do."""
+        for i, j in combinations(range(len(self.wheels)), 2):
+            one, two = self.wheels[i], self.wheels[j]
+            if abs(two.centre - one.centre) < one.radius + two.radius:
+                return j, i
+        return ()
+
+    @property
+    def passes_by(self) -> bool:
+        """Whether it would turn the wrong way round a wheel, which it does not touch."""
+        turning = sum(-wrap if w.outside else wrap for w, wrap in zip(self.wheels, self.wraps, strict=True))
+        return abs(turning - _TURN) > 1.0
+
     def missed(self) -> tuple[int, ...]:
         """Wheels of which one is not where the line can come to it, those first that are it sooner; () if all are.
 
         It would turn the wrong way round it, two circles meet, or a strand runs into a circle or another strand.
         """
         count = len(self.wheels)
-        for i, j in combinations(range(count), 2):
-            one, two = self.wheels[i], self.wheels[j]
-            if abs(two.centre - one.centre) < one.radius + two.radius:
-                return j, i
-        turning = sum(-wrap if w.outside else wrap for w, wrap in zip(self.wheels, self.wraps, strict=True))
-        if abs(turning - _TURN) > 1.0:
+        if self.meeting:
+            return self.meeting
+        if self.passes_by:
             return tuple(sorted(range(count), key=lambda k: -self.wraps[k]))
         for k, (start, end) in enumerate(self.strands):
             for j, wheel in enumerate(self.wheels):

@@ -214,7 +214,7 @@ def _with_idlers(
         replace(w, centre=w.centre / chain.pitch, radius=w.radius / chain.pitch, rim=w.rim / chain.pitch) for w in told
     )
     mesh = ChainMesh(sprockets, distance, 0, idlers=wheels)
-    check_idlers(mesh.drive.loop, wheels, idlers, prefix)
+    check_idlers(mesh.drive.loop, wheels, idlers, prefix, chain.pitch)
     needed = mesh.drive.longest() - PLACED_MM / chain.pitch
     fewest = 2 * math.ceil(needed / 2)
     if links is not None and not needed <= links < fewest + _TOO_MANY:

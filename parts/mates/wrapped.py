@@ -81,8 +81,10 @@ def idler_wheels(
     return tuple(one.wheel(f"{prefix}idlers[{k}]", pitch_radius, over) for k, one in enumerate(idlers, 1))
 
 
-def check_idlers(loop: Loop, wheels: Sequence[Wheel], idlers: Sequence[IdlerTable], prefix: str) -> None:
-    """Refuse idlers to which the loop does not come.
+def check_idlers(
+    loop: Loop, wheels: Sequence[Wheel], idlers: Sequence[IdlerTable], prefix: str, unit: float = 1.0
+) -> None:
+    """Refuse idlers to which the loop, told in ``unit`` mm, does not come.
 
     Raises
     ------
@@ -92,7 +94,16 @@ def check_idlers(loop: Loop, wheels: Sequence[Wheel], idlers: Sequence[IdlerTabl
     for wheel in (loop.wheels[k] for k in loop.missed()):
         if wheel in wheels:
             k = wheels.index(wheel)
-            raise ParameterError(f"{prefix}idlers[{k + 1}].at", idlers[k].at, "idler_missed")
+            key, at = f"{prefix}idlers[{k + 1}].at", idlers[k].at
+            if loop.meeting:
+                one, two = (loop.wheels[i] for i in loop.meeting)
+                apart, least = unit * abs(one.centre - two.centre), unit * (one.radius + two.radius)
+                # told with four decimals or fewer, it is still enough
+                least = math.ceil(least * 1e4) / 1e4
+                raise ParameterError(key, at, "idler_meets_wheel", apart=apart, least=least)
+            if loop.passes_by:
+                raise ParameterError(key, at, "idler_passed_by", other="false" if wheel.outside else "true")
+            raise ParameterError(key, at, "idler_in_strand")
 
 
 class Wrapped(Toothed, kw_only=True):

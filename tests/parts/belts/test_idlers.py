@@ -82,7 +82,10 @@ def test_calc_takes_the_drive_and_its_idlers_from_a_scene(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("mate", "words"),
     [
-        ({"idlers": [ROLLER | {"at": [30.0, 25.0]}]}, r"idlers\[1\].at = \[30.0, 25.0\]: is not where it comes"),
+        ({"idlers": [ROLLER | {"at": [30.0, 25.0]}]}, r"\.at = \[30.0, 25.0\]: is not where .* outside = false"),
+        ({"idlers": [{"at": [30.0, 1.0], "diameter": 4.0}]}, r"\.at = \[30.0, 1.0\]: .* outside = true"),
+        # 3-4-5: 11.25 off the second's axis, the sum of the radii 60 / pi + 5.38
+        ({"idlers": [ROLLER | {"at": [51.0, 6.75]}]}, r"\.at = .*: is 11\.25 mm off .*: at least 24\.4786 mm"),
         ({"idlers": [{"at": [30.0, 0.0], "diameter": 4.0}]}, r"idlers\[1\].at"),
         ({"idlers": [ROLLER], "centre_distance": None, "number_of_belt_teeth": 100}, r"centre_distance.*missing"),
         ({"idlers": [{"at": [30.0, 15.0]}]}, r"idlers\[1\].number_of_teeth.*diameter"),
@@ -95,6 +98,12 @@ def test_idlers_that_do_not_go_are_refused_by_their_key(mate: Keys, words: str) 
     keys = {k: v for k, v in ({"centre_distance": 60.0} | mate).items() if v is not None}
     with pytest.raises(SceneError, match=words):
         placed(keys)
+
+
+def test_what_is_offered_where_the_belt_passes_an_idler_goes_round_it() -> None:
+    for idler in (ROLLER | {"at": [30.0, 25.0]}, {"at": [30.0, 1.0], "diameter": 4.0}):
+        other = {"outside": not idler.get("outside", False)}
+        assert told([idler | other])["idler_wrap_deg"] > 0
 
 
 @pytest.mark.parametrize("kind", ["belt", "chain"])
