@@ -86,6 +86,8 @@ class WheelSections(Record):
     core: HubHoles
     bore: Boundary | None
     holes: tuple[Boundary, ...] = ()
+    # a ring's: its teeth stand in the bore
+    toothed_bore: bool = False
     # the walls of what is not one outline from face to face, moved; gives the loops at both faces
     rim: Rim | None = None
 
@@ -120,7 +122,8 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
     if shape.is_plate and sections.rim is None:
         holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
         outline = sections.outline(offset, 0.0)
-        return plate(Region(outline, tuple(holes)), 0.0, shape.face_width, shape.twist, toothed=outline)
+        toothed = holes[0] if sections.toothed_bore else outline
+        return plate(Region(outline, tuple(holes)), 0.0, shape.face_width, shape.twist, toothed=toothed)
     _check_faces(shape, sections.root_radius, sections.core, offset)
     _check_chamfers(shape, sections.root_radius, sections.core, offset)
     return _Wheel(shape, sections, offset).body()
@@ -179,10 +182,11 @@ class _Wheel:
     def body(self) -> Body:
         """Walls first, then the caps of both sides."""
         recessed = self._recessed
+        around, within = (None, self.twist) if self.sections.toothed_bore else (self.twist, None)
         if self.sections.rim is not None:
             outline = self.sections.rim(self.made, self.offset)
         else:
-            outline = self._run(self.sections.outline, self.rim, (True, True), "outline", self.twist)
+            outline = self._run(self.sections.outline, self.rim, (True, True), "outline", around)
         self.holes = [
             self._run(hole, self.web, (not recessed(0), not recessed(1)), "hole") for hole in self.sections.holes
         ]
@@ -190,7 +194,8 @@ class _Wheel:
         if self.sections.bore is not None:
             # a bore that ends in the floor of a recess has no chamfer there
             ends = (self._is_end(0), self._is_end(1))
-            bore = self._run(self.sections.bore, self.hub, ends, "bore")
+            who = "outline" if self.sections.toothed_bore else "bore"
+            bore = self._run(self.sections.bore, self.hub, ends, who, within)
         for side in (0, 1):
             self._side(side, outline[side], None if bore is None else bore[side])
         return self.made.body()

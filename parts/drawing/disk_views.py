@@ -64,7 +64,8 @@ def ring_drawing(
 
     ``circles``: radii with sizes, mm; ``strokes``: of the inside on its face; ``zero``, ``teeth``: as a disk has them.
     """
-    section, face = ring_section(subject.part.face_width, radii, holes, subject), ring_face(radii[2], holes, subject)
+    shape = WheelShape(subject.part.face_width)
+    section, face = ring_section(shape, radii, holes, subject), ring_face(radii[2], holes, subject)
     told = (Round(name, 0j, radius, angles=_AROUND) for name, radius in circles.items())
     section = section.plus(notes=[subject.worked(complex(subject.part.face_width / 2, -radii[1]), free=1j)])
     face = replace(face, rounds=(*told, *face.rounds)).plus(strokes)

@@ -501,10 +501,18 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         diameter("bore_diameter", bore.diameter, at.hub[1], "right", wishes.bore)
     foot = -1j * max([down, *_beyond(wheel, -1)])
     found.append(Size("face_width", foot, width + foot, "below", "", wishes.width))
-    for name, cut, z, way in (("above", shape.chamfer_above, width, -1), ("below", shape.chamfer_below, 0.0, 1)):
+    return found + _chamfer_sizes(shape, closed(_half(wheel, bore_radii(bore)[0], up, toothed=False)), up, subject)
+
+
+def _chamfer_sizes(shape: WheelShape, half: Sequence[Line], outer: float, subject: Subject) -> list[Size]:
+    """The chamfers of ``half`` a section at its ``outer`` edges, each with how many are like it."""
+    found = []
+    for name, cut, z, way in (
+        ("above", shape.chamfer_above, shape.face_width, -1), ("below", shape.chamfer_below, 0.0, 1),
+    ):  # fmt: skip
         if cut and not (name == "below" and cut == shape.chamfer_above):
-            ends = complex(z + way * cut, up), complex(z, up)
-            lines = [line.end - line.start for line in closed(_half(wheel, bore_radii(bore)[0], up, toothed=False))]
+            ends = complex(z + way * cut, outer), complex(z, outer)
+            lines = [line.end - line.start for line in half]
             count = sum(abs(abs(d.real) - cut) + abs(abs(d.imag) - cut) < _NONE for d in lines)
             words = counted_words(subject.language, "chamfers_of", count)
             found.append(Size(f"face_chamfer.{name}", *ends, "above", words, "×45°"))
@@ -769,20 +777,28 @@ def _corner(centre: complex, radius: float, angles: tuple[float, ...]) -> Round:
 
 
 def ring_section(
-    width: float, radii: tuple[float, float, float], holes: HubHoles, subject: Subject, other: float | None = None
+    shape: WheelShape, radii: tuple[float, float, float], holes: HubHoles, subject: Subject, other: float | None = None
 ) -> View:
-    """The axial section of a ring with holes in its rim.
+    """The axial section of a ring with holes in its rim, and with the chamfers of its shape.
 
     ``radii``: of the edge that is seen inside, of where the material of the plane begins, of the outside, mm;
     ``other``: of both edges below the axis, where it is another there.
     """
-    outer = radii[2]
+    outer, width, low, high = radii[2], shape.face_width, shape.chamfer_below, shape.chamfer_above
+
+    def half(inner: float, under: float = low, over: float = high) -> tuple[Line, ...]:
+        """From an ``inner`` edge with its chamfers outwards."""
+        inside = [complex(0, inner + under), complex(under, inner), complex(width - over, inner)]
+        outside = [complex(width, outer - high), complex(width - high, outer), complex(low, outer)]
+        return closed([*inside, complex(width, inner + over), *outside, complex(0, outer - low)])
+
     strokes: list[Stroke] = []
     hatched: list[Loop] = []
     axes = [Line(0j, complex(width))]
     for way in (1, -1):
         seen, begins = radii[:2] if way > 0 or other is None else (other, other)
-        solid, loop = block(0.0, width, begins, outer), block(0.0, width, seen, outer)
+        loop = half(seen)
+        solid = loop if seen == begins else half(begins, 0.0, 0.0)
         hatched.append(solid if way > 0 else below(solid))
         side = loop if way > 0 else below(loop)
         strokes += [*outlined(side), (VISIBLE, level((0.0, width), way * begins))]
@@ -790,10 +806,10 @@ def ring_section(
         cut_holes(holes, 0.0, way, (0.0, width), (strokes, hatched, axes))
     wishes = subject.wishes
     sizes = [
-        Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
+        Size("outer_diameter", complex(low, -outer), complex(low, outer), "left", "Ø", wishes.tip),
         Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
     ]
-    sizes += circle_sizes(holes, 0.0, 0.0)
+    sizes += [*circle_sizes(holes, 0.0, 0.0), *_chamfer_sizes(shape, half(radii[0]), outer, subject)]
     return View(tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), tuple(sizes))
 
 

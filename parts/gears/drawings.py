@@ -58,7 +58,7 @@ from parts.drawing.working import (
 )
 from parts.gears.noncircular_gear.part import NoncircularGearSpec
 from parts.gears.rack.part import RackSpec
-from parts.gears.ring_gear.part import RingGearSpec
+from parts.gears.ring_gear.part import RingGearSpec, shape_of_ring
 from parts.gears.spur_gear.part import SpurGearSpec
 from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
@@ -217,21 +217,22 @@ def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:
 
 def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, ...]:
     """Axial section and face of a ring."""
-    width, outer, root = keys.face_width, ring.outer_radius, ring.root_radius
+    shape, outer, root = shape_of_ring(keys), ring.outer_radius, ring.root_radius
+    width, low, high = shape.face_width, shape.chamfer_below, shape.face_width - shape.chamfer_above
     tip, pitch, wishes = ring.tip_radius, ring.reference_radius, subject.wishes
     kept = _kept(ring)
     turn = math.pi / 2 - sum(kept[0]) / 2 if kept else 0.0
     holes = replace(ring.holes, round_holes=tuple(replace(g, start=g.start + turn) for g in ring.holes.round_holes))
     bare = len(kept) % 2 == 1
-    section = ring_section(width, (tip, root, outer), holes, subject, ring.core_radius if bare else None)
+    section = ring_section(shape, (tip, root, outer), holes, subject, ring.core_radius if bare else None)
     axes = [level((0.0, width), way * pitch) for way in ((1,) if bare else (1, -1))]
-    told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
+    told = Size("tip_diameter", complex(high, -tip), complex(high, tip), "right", "Ø", wishes.inner)
     rough = subject.worked(complex(width, pitch if bare else -pitch), goes_on=True)
     sizes = section.sizes[0], *(() if bare else (told,)), *section.sizes[1:]
     section = replace(
         section, axes=(*section.axes, *axes), sizes=sizes, notes=(rough,),
-        rim=() if bare else spots(1j * tip, complex(width, tip), -1j),
-        face=spots(complex(width, outer), complex(width, root), 1 + 0j),
+        rim=() if bare else spots(complex(low, tip), complex(high, tip), -1j),
+        face=spots(complex(width, outer - width + high), complex(width, root), 1 + 0j),
     )  # fmt: skip
     region = subject.part.section(0.0).region
     toothed = region.holes[0]

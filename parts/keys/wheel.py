@@ -73,11 +73,16 @@ def shape_of(keys: Bodied) -> WheelShape:
     return wheel_shape(keys.face_width, getattr(keys, "web", None), keys.hub, keys.face_chamfer)
 
 
+def both_faces(chamfer: float | FaceChamferTable) -> FaceChamferTable:
+    """The chamfers of both faces, where one number may stand for both."""
+    return chamfer if isinstance(chamfer, FaceChamferTable) else FaceChamferTable(chamfer, chamfer)
+
+
 def wheel_shape(
     face_width: float, web: WebTable | None, hub: HubTable | None, chamfer: float | FaceChamferTable
 ) -> WheelShape:
     """The keys of a wheel as its exact shape."""
-    both = chamfer if isinstance(chamfer, FaceChamferTable) else FaceChamferTable(chamfer, chamfer)
+    both = both_faces(chamfer)
     return WheelShape(
         face_width,
         None if web is None else Web(web.thickness, web.rim_diameter, web.shift),

@@ -130,7 +130,7 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
     radius = ring.seat_radius if is_seat else ring.pin_radius
     # where the material begins in the plane of the section: beyond a seat, or at the foot of a pin
     begins = circle + radius if is_seat else circle - radius
-    section = ring_section(width, (inner, begins, outer), ring.holes, subject)
+    section = ring_section(WheelShape(width), (inner, begins, outer), ring.holes, subject)
     sizes, axes = [Size("inner_diameter", complex(width, -inner), complex(width, inner), "right", "Ø")], list[Line]()
     # seats about the edge itself have no other circle
     if abs(inner - circle) > _SAME:

@@ -1,4 +1,4 @@
-"""What moving the sides of gears and of rings out of the material has in common: corner arcs, and what is kept."""
+"""What moving the sides of gears and of rings has in common: corner arcs, what is kept, edges of face chamfers."""
 
 from __future__ import annotations
 
@@ -12,13 +12,15 @@ from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.curve import Curve, Reversed, end_point, start_point
 from geometry.curves.fillet import Fillet
 from geometry.curves.line_arc import Arc
-from geometry.plane.profile import Label, Segment, joint_turn
+from geometry.plane.profile import Label, Profile, Segment, joint_turn
 
 # of a curve, where it is looked whether it turns back or passes a line
 SAMPLES = 65
+# share of a tip rounding's radius that is left at the edge of the deepest face chamfer
+KEPT_ROUNDING = 0.25
 
 
 def corner_arc(before: Curve, after: Curve, distance: float) -> list[Segment]:
@@ -75,3 +77,22 @@ def kept_from(pieces: list[Segment], found: tuple[int, float]) -> list[Segment]:
     curve, label = pieces[index].curve, pieces[index].label
     rest = pieces[index + 1 :]
     return [Segment(curve.trimmed(at, curve.domain[1]), label), *rest] if at < curve.domain[1] else rest
+
+
+def at_chamfer(rounding: float, depth: float, deepest: float, profile: Callable[[float], Profile]) -> Profile:
+    """The ``profile`` of teeth with the tip rounding, mm, that is left of theirs by a face chamfer of a ``depth``, mm.
+
+    It shrinks by the depth, as a parallel one does; where the ``deepest`` chamfer would leave less than
+    a quarter of its radius, it shrinks evenly to that quarter, so that its face does not end in a point.
+    """
+    shrinking = min(1.0, (1 - KEPT_ROUNDING) * rounding / deepest)
+    kept = rounding - shrinking * depth
+    made = profile(kept)
+    if shrinking == 1.0 or kept == 0.0:
+        return made
+    # the centre of its arc moves with the depth: its face is no cone, and curves of any kind are followed by splines
+    period = (
+        Segment(Reversed(s.curve.reversed()), s.label) if isinstance(s.curve, Arc) and s.label is Label.TIP_BREAK else s
+        for s in made.period
+    )
+    return replace(made, period=tuple(period))

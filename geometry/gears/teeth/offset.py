@@ -17,19 +17,17 @@ from geometry.base.errors import OffsetError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Reversed, end_point, start_point
+from geometry.curves.curve import end_point, start_point
 from geometry.curves.fillet import Fillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, kept_from, with_corner_arcs
+from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, at_chamfer, kept_from, with_corner_arcs
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.hub_holes import Holed
 
-# share of a tip rounding's radius that is left at the edge of the deepest face chamfer
-KEPT_ROUNDING = 0.25
 # of the root radius: a space whose flanks are shorter has closed, for no file tells their ends apart
 _LEAST_SPACE = 1e-4
 W = TypeVar("W", bound=Holed)
@@ -88,30 +86,19 @@ def toothed_region(side: Callable[[W, float], ToothSide], wheel: W, offset: floa
 
 
 def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float) -> Profile:
-    """The outline moved ``inset`` mm into the material, and then ``depth`` mm for a face chamfer, segment for segment.
+    """The outline moved ``inset`` mm into the material, then ``depth`` mm for a face chamfer, segment for segment."""
+    whole = SideCurves.of(gear).shrunk(inset)
 
-    A tip rounding shrinks by the depth, as a parallel one does; where the ``deepest`` chamfer would leave less than
-    a quarter of its radius, it shrinks evenly to that quarter, so that its face does not end in a point.
-    """
-    curves = SideCurves.of(gear).shrunk(inset)
-    shrinking = min(1.0, (1 - KEPT_ROUNDING) * curves.tip_rounding / deepest)
-    rounding = curves.tip_rounding - shrinking * depth
-    moved = replace(curves.shrunk(depth), tip_rounding=rounding)
-    side = assemble_side(moved, gear.pitch_angle)
-    if gear.sector is None:
-        made = side.profile()
-    else:
+    def profile(rounding: float) -> Profile:
+        curves = replace(whole.shrunk(depth), tip_rounding=rounding)
+        side = assemble_side(curves, gear.pitch_angle)
+        if gear.sector is None:
+            return side.profile()
         from geometry.gears.teeth.sector_rim import sector_profile
 
-        made = sector_profile(gear, side, assemble_side(moved, 2 * gear.pitch_angle), -inset - depth)
-    if shrinking == 1.0 or rounding == 0.0:
-        return made
-    # the centre of its arc moves with the depth: its face is no cone, and curves of any kind are followed by splines
-    period = (
-        Segment(Reversed(s.curve.reversed()), s.label) if isinstance(s.curve, Arc) and s.label is Label.TIP_BREAK else s
-        for s in made.period
-    )
-    return replace(made, period=tuple(period))
+        return sector_profile(gear, side, assemble_side(curves, 2 * gear.pitch_angle), -inset - depth)
+
+    return at_chamfer(whole.tip_rounding, depth, deepest, profile)
 
 
 def _moved_side(gear: SpurGear, offset: float, pitch_angle: float) -> ToothSide:

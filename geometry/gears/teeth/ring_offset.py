@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import partial
+from functools import lru_cache, partial
 
 import numpy as np
 
@@ -20,12 +20,15 @@ from geometry.curves.curve import Curve, Reversed, start_point
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, kept_from, with_corner_arcs
+from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, at_chamfer, kept_from, with_corner_arcs
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_limits import rim_walls
 from geometry.gears.teeth.ring_tooth import RingCurves, RingSide, assemble_ring_side, ring_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
-from geometry.plane.profile import Label, Region, Segment, circle
+from geometry.plane.profile import Label, Profile, Region, Segment, circle
+from geometry.solids.bores import RoundBore
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.wheel import WheelSections, wheel_sections
 
 
 def ring_region(gear: RingGear, offset: float = 0.0) -> OffsetRegion:
@@ -45,13 +48,46 @@ def _section(gear: RingGear, offset: float) -> OffsetRegion:
     thinnest = min((wall.thickness for wall in rim_walls(gear)), default=math.inf)
     if -2 * offset >= thinnest:
         raise OffsetError(offset, "no_wall_beside_holes")
-    outer = circle(gear.outer_radius + offset, Label.RIM)
-    toothed = side.profile()
-    if gear.sector is not None:
-        from geometry.gears.teeth.sector_rim import sector_profile
-
-        toothed = sector_profile(gear, side, side, offset)
+    outer, toothed = circle(gear.outer_radius + offset, Label.RIM), _toothed(gear, side, offset)
     return OffsetRegion(Region(outer, (toothed, *gear.holes.profiles(offset))), offset, side.findings)
+
+
+def _toothed(gear: RingGear, side: RingSide, offset: float) -> Profile:
+    """The toothed boundary of sides that are moved ``offset`` mm out of the material."""
+    if gear.sector is None:
+        return side.profile()
+    from geometry.gears.teeth.sector_rim import sector_profile
+
+    return sector_profile(gear, side, side, offset)
+
+
+def ring_sections(gear: RingGear, deepest: float) -> WheelSections:
+    """The boundaries of a ring's solid, whose teeth stand in its bore; ``deepest``: of its face chamfers, mm."""
+
+    def rim(offset: float, depth: float) -> Profile:
+        return circle(gear.outer_radius + offset - depth, Label.RIM)
+
+    @lru_cache(maxsize=8)
+    def teeth(offset: float, depth: float) -> Profile:
+        if depth == 0 and (offset > 0 or deepest == 0):
+            return _toothed(gear, _moved_side(gear, offset), offset)
+        return chamfered_teeth(gear, -offset, depth, max(deepest, depth))
+
+    core = HubHoles(RoundBore(2 * gear.core_radius), gear.holes.round_holes)
+    sections = wheel_sections(rim, gear.outer_radius, gear.holes)
+    return replace(sections, core=core, bore=teeth, toothed_bore=True)
+
+
+def chamfered_teeth(gear: RingGear, inset: float, depth: float, deepest: float) -> Profile:
+    """The teeth moved ``inset`` mm into the material, and then ``depth`` mm for a face chamfer, segment for segment."""
+    whole = RingCurves.of(gear)
+    whole = whole.shrunk(inset) if inset else whole
+
+    def profile(rounding: float) -> Profile:
+        curves = replace(whole.cut(depth), tip_rounding=rounding)
+        return _toothed(gear, assemble_ring_side(curves, gear.pitch_angle), -inset - depth)
+
+    return at_chamfer(whole.tip_rounding, depth, deepest, profile)
 
 
 def _moved_side(gear: RingGear, offset: float) -> RingSide:

@@ -84,6 +84,17 @@ class RingCurves(Record):
             max(self.tip_rounding - distance, 0.0),
         )
 
+    def cut(self, depth: float) -> RingCurves:
+        """The same at the edge of a face chamfer ``depth`` mm deep: a sharp root stays sharp."""
+        if depth == 0:
+            return self
+        moved = self.shrunk(depth)
+        if self.fillet is not None:
+            return moved
+        flank = replace(moved.flank, end_roll=moved.flank.roll_at_radius(moved.root_radius))
+        land = flank.polar_angle_at_radius(moved.root_radius)
+        return replace(moved, land=land, fillet=None, flank=flank)
+
 
 def rounded_root_plug(gear: RingGear) -> PinionCutter:
     """The body that fills a space with a rounded root: an external tooth with rounded tips."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct
 
 from parts.base.kind import Others, Report
+from parts.gears.face_chamfers import chamfer_finding, check_face_chamfer
 from parts.gears.quantities import circles, tooth_quantities
 from parts.gears.toothed_kind import ToothedKind
 from parts.keys.base import degrees, either, in_modules, mm
@@ -23,12 +24,14 @@ from parts.keys.helix import (
 )
 from parts.keys.holes import HolesTable, PitchCircle, hub_holes, with_remedy
 from parts.keys.sector import RingSectorTable, sector_of
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, wheel_shape
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.gears.teeth.ring import RingGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
+    from geometry.solids.wheel import WheelShape
 
 # modules outside the root circle where no rim was asked for
 _RIM = 2.5
@@ -78,6 +81,7 @@ class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     thinning_method: Literal["wider_cutter_tooth", "deeper_cut"] = "wider_cutter_tooth"
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     holes: RimHolesTable | list[RimHolesTable] | None = None
+    face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     tooth_mark: ToothMarkTable | None = None
     sector: RingSectorTable | None = None
 
@@ -102,7 +106,9 @@ def checked_ring_gear(keys: RingGearSpec) -> RingGear:
         return True
 
     try:
-        gear = _with_rim(keys, checked_ring(section, normal, checked_teeth(keys, keys.number_of_teeth).angle))
+        helix = checked_teeth(keys, keys.number_of_teeth)
+        gear = _with_rim(keys, checked_ring(section, normal, helix.angle))
+        check_face_chamfer(keys.face_chamfer, helix, gear)
     except ParameterError as refusal:
         raise with_remedy(refusal, keys, keeps_rim) from refusal
     _marks(keys, gear)
@@ -115,7 +121,14 @@ def _marks(keys: RingGearSpec, gear: RingGear) -> Marks:
     for group in gear.holes.round_holes:
         if any(abs(c.imag) < group.diameter and c.real > 0 for c in group.centres()):
             outer = min(outer, (group.pitch_circle_diameter - group.diameter) / 2)
-    return tooth_mark(keys.tooth_mark, gear.number_of_teeth, (gear.core_radius, outer), keys.face_width, inside=True)
+    chamfer = shape_of_ring(keys).chamfer_above
+    room = gear.core_radius + chamfer, outer - chamfer
+    return tooth_mark(keys.tooth_mark, gear.number_of_teeth, room, keys.face_width, inside=True)
+
+
+def shape_of_ring(keys: RingGearSpec) -> WheelShape:
+    """Thickness and chamfers."""
+    return wheel_shape(keys.face_width, None, None, keys.face_chamfer)
 
 
 @told_in_keys
@@ -195,13 +208,19 @@ class RingGearKind(ToothedKind[RingGearSpec, "RingGear"]):
         return marked(ring_region(thing, offset), _marks(keys, thing))
 
     def solid(self, keys: RingGearSpec, thing: RingGear, offset: float) -> Body:
-        """The section, extruded along the helix."""
-        from geometry.solids.body import plate
+        """The section along the helix, with its chamfers."""
+        from geometry.base.record import replace
+        from geometry.gears.teeth.ring_offset import ring_sections
         from geometry.solids.engraving import engraved
+        from geometry.solids.wheel import wheel_body
 
-        region, twist = self.section(keys, thing, offset).region, helix_of(keys).twist(thing.reference_radius)
-        body = plate(region, 0.0, keys.face_width, twist, toothed=region.holes[0])
-        return engraved(body, _marks(keys, thing), keys.face_width)
+        shape = replace(shape_of_ring(keys), twist=helix_of(keys).twist(thing.reference_radius))
+        sections = ring_sections(thing, max(shape.chamfer_below, shape.chamfer_above))
+        return engraved(wheel_body(shape, sections, offset), _marks(keys, thing), keys.face_width)
+
+    def is_plate(self, keys: RingGearSpec, thing: RingGear) -> bool:
+        """Whether there is nothing but the section."""
+        return shape_of_ring(keys).is_plate
 
     def report(self, keys: RingGearSpec, thing: RingGear) -> Report:
         """Diameters and thicknesses, the cutter, what is poor."""
@@ -209,7 +228,8 @@ class RingGearKind(ToothedKind[RingGearSpec, "RingGear"]):
 
         quantities = {**tooth_quantities(keys, thing, tip_thickness(thing)), **_cutter_quantities(keys, thing)}
         tip = tip_finding(thing, keys.module)
-        found = (*(() if tip is None else (tip,)), *hand_finding(keys), *findings(thing))
+        chamfer = chamfer_finding(keys.face_chamfer, keys.tip_rounding)
+        found = (*(() if tip is None else (tip,)), *hand_finding(keys), *chamfer, *findings(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 from msgspec import Meta, Struct
 
 from geometry.base.errors import LateError, Nearest, ParameterError
-from geometry.base.findings import Finding, beyond
+from geometry.base.findings import Finding
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import (
@@ -22,7 +22,7 @@ from geometry.gears.teeth.basic_rack import (
     iso_53,
 )
 from geometry.gears.teeth.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
-from geometry.gears.teeth.offset import KEPT_ROUNDING, chamfered_outline, gear_region, moved_outline
+from geometry.gears.teeth.offset import chamfered_outline, gear_region, moved_outline
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from geometry.solids.hub_holes import HubHoles
@@ -30,6 +30,7 @@ from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
+from parts.gears.face_chamfers import chamfer_finding, check_face_chamfer
 from parts.gears.quantities import circles, tooth_quantities
 from parts.gears.toothed_kind import ToothedKind
 from parts.keys.base import BoreDiameter, in_modules, mm
@@ -121,7 +122,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
 
     try:
         gear = checked_gear(gear_of(keys), helix.angle)
-        _check_face_chamfer(keys, gear)
+        check_face_chamfer(keys.face_chamfer, helix_of(keys), gear)
         check_wheel(shape_of(keys), 2 * gear.core_radius, _about_axis(gear))
     except ParameterError as refusal:
         whole = LateError(refusal.code, partial(_whole, keys, refusal))
@@ -206,30 +207,13 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""
         helix = math.radians(keys.helix_angle_deg)
-        found = (*rack_findings(keys, thing), *hand_finding(keys), *_chamfer_finding(keys), *findings(thing, helix))
+        chamfer = chamfer_finding(keys.face_chamfer, keys.tip_rounding)
+        found = (*rack_findings(keys, thing), *hand_finding(keys), *chamfer, *findings(thing, helix))
         quantities = tooth_quantities(keys, thing, tip_thickness(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
 
 SPUR_GEAR = SpurGearKind()
-
-
-def _check_face_chamfer(keys: SpurGearSpec, gear: SpurGear) -> None:
-    """A chamfer that stands upright over the end of a helix stays within the teeth: beta_b is below 45 degrees."""
-    given, helix = keys.face_chamfer, helix_of(keys)
-    both = {"": given} if not isinstance(given, FaceChamferTable) else {".below": given.below, ".above": given.above}
-    slope = math.tan(helix.angle) * gear.base_radius / gear.reference_radius
-    for key, value in both.items():
-        if value > 0 and slope >= 1:
-            angle = math.degrees(math.atan(slope))
-            raise ParameterError(f"face_chamfer{key}", value, "chamfer_on_steep_helix", Nearest(0.0), angle=angle)
-
-
-def _chamfer_finding(keys: SpurGearSpec) -> tuple[Finding, ...]:
-    """The remark that a tip rounding keeps some of its radius where a plain chamfer would leave none: sizes in mm."""
-    given, whole = keys.face_chamfer, (1 - KEPT_ROUNDING) * keys.tip_rounding
-    deepest = max(given.below, given.above) if isinstance(given, FaceChamferTable) else given
-    return beyond("tip_rounding_kept", deepest, whole) if whole > 0 else ()
 
 
 @told_in_keys
