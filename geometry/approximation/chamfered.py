@@ -26,7 +26,8 @@ from geometry.plane.profile import Profile
 
 # what corners may be off between the nodes, mm: below the tolerance by which kernels know their edges, 1e-7
 _CORNER_MM = 9e-8
-_MOST_DEGREE, _MOST_PIECES = 6, 8
+# the greatest degree over the depth, and how often a chamfer's pieces are halved
+_MOST_DEGREE, _MOST_DOUBLED = 6, 3
 # the tolerance's shares that the splines of a boundary are made with, one after the other
 _SHARES = (0.9, 0.3, 0.1, 0.03)
 # samples of a segment where the degree over the depth is chosen
@@ -99,17 +100,17 @@ def _curves(sections: Sections, shares: Real) -> list[list[Curve]]:
     return [list(curves) for curves in zip(*rows, strict=True)]
 
 
-def pieces_needed(sections: Sections, shares: Callable[[int], Sequence[float]]) -> int:
-    """Into how many pieces a chamfer is cut by ``shares``, so that each is near a polynomial: 1, 2, 4 or 8.
+def pieces_needed(sections: Sections, *ways: Callable[[int], Sequence[float]]) -> Sequence[float]:
+    """The shares at which a chamfer is cut, so that each piece is near a polynomial: into 1, 2, 4 or 8.
+
+    The first of the ``ways`` to cut it is taken that makes such pieces, else the first with 8.
 
     More than one where its form changes within the depth, as where an offset flank begins to be cut at its foot.
     """
-    count = 1
-    while count < _MOST_PIECES and not all(
-        _degree(_piece(sections, *ends)) for ends in pairwise((0.0, *shares(count)))
-    ):
-        count *= 2
-    return count
+    counts = [2**k for k in range(_MOST_DOUBLED + 1)]
+    tries = (way(count) for way in ways for count in counts)
+    near = (cuts for cuts in tries if all(_degree(_piece(sections, *ends)) for ends in pairwise((0.0, *cuts))))
+    return next(near, ways[0](counts[-1]))
 
 
 def _piece(sections: Sections, low: float, high: float) -> Sections:

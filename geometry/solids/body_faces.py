@@ -72,8 +72,9 @@ def _cut(body: Body) -> Body:
     """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
 
     def pieces(wall: Wall, whole: int, end: int) -> tuple[float, ...]:
-        cuts = partial(even_shares, opens=opening(body, wall, whole, end))
-        return cuts(pieces_needed(partial(body.section_at, wall, whole, end), cuts))
+        # beside a cusp an edge runs as from it
+        ways = (partial(even_shares, opens=opens) for opens in (opening(body, wall, whole, end), 0.0))
+        return pieces_needed(partial(body.section_at, wall, whole, end), *ways)
 
     return cut_twists(cut_chamfers(body, pieces))
 

@@ -12,6 +12,7 @@ from geometry.base.nearest import last_that_holds
 from geometry.base.record import made_once, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile, joint_turn
 from geometry.solids.body import Body, BodyBuilder, Wall
@@ -27,6 +28,9 @@ _NO_BOW = 1e-11
 _OPENING_POWER = 4
 # within this share of the depth, so often halved, the place is found where an edge opens
 _OPENING_SHARE, _OPENING_STEPS = 1e-4, 14
+
+# so many depths of a chamfer: from a corner with a smaller radius edges run nearly as from a cusp
+_CUSP_DEPTHS = 4.0
 
 # the shares of the depth, up to 1, at which a chamfer is cut: its wall, its loops of the whole boundary and of its end
 Pieces = Callable[[Wall, int, int], Sequence[float]]
@@ -57,18 +61,31 @@ def cut_chamfers(body: Body, pieces: Pieces) -> Body:
 def opening(body: Body, wall: Wall, whole: int, end: int) -> float | None:
     """The share of its depth at which a chamfer begins to meet itself in an edge: over a vertex of the boundary.
 
-    None where it does not: the end has as many corners as the whole boundary.
+    None where it does not: the end has as many corners as the whole boundary. From a corner at the cusp of a curve on,
+    as at an involute's on its base circle, its edge runs with the root of the depth as well.
     """
 
     def opened(share: float) -> bool:
         return _corners(body.section_at(wall, whole, end, share)) > corners
 
-    corners = _corners(body.loop_profile(whole))
+    boundary = body.loop_profile(whole)
+    corners = _corners(boundary)
     if not opened(1.0):
-        return None
+        return 0.0 if _has_cusp(boundary, abs(body.loops[end].z - body.loops[whole].z)) else None
     if opened(_OPENING_SHARE):
         return 0.0
     return last_that_holds(lambda share: not opened(share), 1.0, _OPENING_SHARE, _OPENING_STEPS)
+
+
+def _has_cusp(profile: Profile, depth: float) -> bool:
+    """Whether a curve bends at a corner of a profile so sharply, against a chamfer's depth, mm, as at its cusp."""
+    curves = [s.curve for s in profile.period]
+    return any(
+        not isinstance(c, Arc) and abs(float(c.curvature(t))) * _CUSP_DEPTHS * depth > 1
+        for a, b in zip(curves, curves[1:] + curves[:1], strict=True)
+        if abs(joint_turn(a, b)) > TOLERANCES.smooth_angle
+        for c, t in ((a, a.domain[1]), (b, b.domain[0]))
+    )
 
 
 def _corners(profile: Profile) -> int:

@@ -32,6 +32,17 @@ PARTS: dict[str, dict[str, Any]] = {
     "gear": GEAR,
     "tip rounding": {**GEAR, "tip_rounding": 0.5},
     "tip chamfer": {**GEAR, "tip_chamfer": 0.2},
+    "ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 4.0, "tip_rounding": 0.5},
+    # its tips end on the base circle, at the cusps of its flanks
+    "ring of cusps": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 4.0, "rounded_root": {}},
+    "ring sector": {
+        "kind": "ring_gear",
+        "module": 2.0,
+        "number_of_teeth": 20,
+        "face_width": 4.0,
+        "rounded_root": {},
+        "sector": {"teeth": 3, "blank_diameter": 48.0, "corner_radius": 0.8},
+    },
     "hexagon": {**GEAR, "number_of_teeth": 17, "bore": {"shape": "hexagon", "across_flats": 8.0, "corner_radius": 0.8}},
 }
 

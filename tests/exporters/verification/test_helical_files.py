@@ -37,6 +37,9 @@ PARTS: dict[str, dict[str, Any]] = {
                          "hub": {"diameter": 16.0, "above": 3.0}, "face_chamfer": 0.3},
     "steep": {**GEAR, "number_of_teeth": 9, "helix_angle_deg": 45.0, "face_width": 70.0, "tip_chamfer": 0.2},
     "shaped": {**GEAR, "number_of_teeth": 15, "helix_angle_deg": 20.0, "cutter": {"number_of_teeth": 25}},
+    "chamfered_ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 24, "helix_angle_deg": 20.0,
+                       "face_width": 10.0, "face_chamfer": {"below": 0.4, "above": 0.6}, "tip_rounding": 1.0,
+                       "holes": {"count": 4, "diameter": 4.0, "pitch_circle_diameter": 66.0}},
     "ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 40, "helix_angle_deg": 20.0, "face_width": 10.0},
     "rack": {"kind": "rack", "module": 2.0, "number_of_teeth": 3, "helix_angle_deg": 30.0, "face_width": 10.0},
     "chevrons": {"kind": "rack", "module": 2.0, "number_of_teeth": 3, "helix_angle_deg": 20.0, "tip_rounding": 0.3,
@@ -114,28 +117,37 @@ def chamfered_reference(keys: dict[str, Any]) -> tuple[Any, float]:
     return shapely.Polygon(outer, holes), 2 * math.sin(beta) / (keys["module"] * keys["number_of_teeth"])
 
 
-def test_chamfers_of_helical_teeth_are_roofs_over_the_section_where_the_helix_ends(tmp_path: Path) -> None:
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["chamfered", "chamfered_ring"])
+def test_chamfers_of_helical_teeth_are_roofs_over_the_section_where_the_helix_ends(tmp_path: Path, name: str) -> None:
     """Sections of the STL by trimesh against the section by shapely, turned and moved in at 45 degrees; none leaves the
-    teeth that the helix would have there. The volume is what these sections hold."""
+    teeth that the helix would have there. The volume is what these sections hold. Holes of a ring stay in their place.
+    """
     import shapely
     import trimesh
 
-    keys = PARTS["chamfered"]
+    keys = PARTS[name]
     below, above, width = 0.4, 0.6, keys["face_width"]
     scene = write(tmp_path, {"g": keys}, 'format = "stl"\ntolerance = 0.002')
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
     mesh, (whole, rate) = trimesh.load(tmp_path / "s" / "g.stl"), chamfered_reference(keys)
+    # of a ring the space within its teeth turns
+    within = shapely.Polygon(whole.interiors[0])
+
+    def turned(angle: float) -> Any:
+        if name == "chamfered":
+            return shapely.affinity.rotate(whole, angle, (0, 0), use_radians=True)
+        return whole.union(within).difference(shapely.affinity.rotate(within, angle, (0, 0), use_radians=True))
+
     for z in (0.01, 0.2, 0.39, 0.41, 3.0, 9.39, 9.41, 9.7, 9.99):
         edges = trimesh.intersections.mesh_plane(mesh, [0, 0, 1], [0, 0, z])[:, :, :2].round(7)
         faces = shapely.polygonize(shapely.linestrings(edges)).geoms
-        found = max(faces, key=lambda face: face.area)
+        found = max(faces, key=lambda face: shapely.Polygon(face.exterior).area)
         depth = max(below - z, z - (width - above), 0.0)
-        turn = rate * min(max(z, below), width - above)
-        wanted = shapely.affinity.rotate(whole, turn, (0, 0), use_radians=True).buffer(-depth, join_style="mitre")
+        wanted = turned(rate * min(max(z, below), width - above)).buffer(-depth, join_style="mitre")
         # as an area over both outlines it is twice as much off at most
         assert found.symmetric_difference(wanted).area < 0.003 * wanted.length
-        helix = shapely.affinity.rotate(whole, rate * z, (0, 0), use_radians=True)
-        assert found.difference(helix.buffer(0.003)).area == 0.0
+        assert found.difference(turned(rate * z).buffer(0.003)).area == 0.0
     shares = np.linspace(0, 1, 5)
     areas = {c: [whole.buffer(-c * s, join_style="mitre").area for s in shares] for c in (below, above)}
     roofs = sum(c * float(np.dot([7, 32, 12, 32, 7], areas[c])) / 90 for c in areas)
@@ -197,7 +209,9 @@ def _distance_from_helical_gear(p: np.ndarray, teeth: int, module: float, alpha:
 
 @pytest.mark.sampled(1)
 @needs_kernel
-@pytest.mark.parametrize("name", ["double", "shaped", "rack", "chevrons", "chamfered", "chamfered_double"])
+@pytest.mark.parametrize(
+    "name", ["double", "shaped", "rack", "chevrons", "chamfered", "chamfered_double", "chamfered_ring"]
+)
 def test_step_files_pass_their_read_back(tmp_path: Path, name: str) -> None:
     scene = write(tmp_path, {name: PARTS[name]}, 'format = "step"')
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0

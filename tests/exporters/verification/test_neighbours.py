@@ -44,6 +44,14 @@ KEYS = {
     "screw": GEAR | {"helix_angle_deg": 20.0},
     "chevron": GEAR | {"helix_angle_deg": 20.0, "double_helical": True},
     "chamfered": GEAR | {"face_chamfer": 0.3},
+    "ring": {
+        "kind": "ring_gear",
+        "module": 2.0,
+        "number_of_teeth": 18,
+        "face_width": 1.5,
+        "outer_diameter": 56.0,
+        "face_chamfer": {"below": 0.3},
+    },
     "hub": GEAR | {"hub": {"diameter": 9.0, "above": 1.0}},
 }
 NEAR = 0.01
@@ -101,6 +109,13 @@ OTHERS: dict[str, tuple[str, tuple[str, Any], str, str]] = {
     "one hand": ("chevron", ("double_helical", False), "", ""),
     "a deeper chamfer": ("chamfered", ("face_chamfer", 0.4), "no edge at one of its ends", "deviates|plane faces"),
     "no chamfer": ("chamfered", ("face_chamfer", 0.0), "", ""),
+    "a ring's deeper chamfer": (
+        "ring",
+        ("face_chamfer", {"below": 0.4}),
+        "no edge at one of its ends",
+        "deviates|plane faces",
+    ),
+    "a ring's other chamfer": ("ring", ("face_chamfer", {"above": 0.3}), "", ""),
     "a wider hub": ("hub", ("hub", {"diameter": 9.1, "above": 1.0}), "deviates", "deviates"),
     "a higher hub": ("hub", ("hub", {"diameter": 9.0, "above": 1.1}), "off every face", "plane faces at"),
     "another tooth": ("hub", ("number_of_teeth", 10), "", ""),

@@ -193,6 +193,21 @@ def test_only_the_ring_and_its_teeth_are_seen_of_a_ring() -> None:
     assert abs(rough.at - (15 - 50j)) < 1e-9
 
 
+def test_chamfers_of_a_ring_are_drawn_and_told_by_how_many_there_are() -> None:
+    """Two lines at 45 degrees for each face in either half: at the tips and at the outside; sizes end beside them."""
+    section = drawing_of(RING | {"face_chamfer": {"below": 0.5, "above": 1.0}}).views[0]
+    aslant = {near(0.5 + 48.5j, 49j), near(14 + 48.5j, 15 + 49.5j), near(0.5 + 65j, 64.5j), near(14 + 65j, 15 + 64j)}
+    lines = straight(section, VISIBLE)
+    assert {e for e in lines if len({p.real for p in e}) == len({p.imag for p in e}) == 2} == mirrored(aslant)
+    found = sizes(section)
+    assert found["face_chamfer.above"] == (14 + 65j, 15 + 65j, "above", "2 chamfers ", "×45°")
+    assert found["face_chamfer.below"] == (0.5 + 65j, 65j, "above", "2 chamfers ", "×45°")
+    assert found["tip_diameter"][:2] == (14 - 48.5j, 14 + 48.5j)
+    assert found["outer_diameter"][:2] == (0.5 - 65j, 0.5 + 65j)
+    both = sizes(drawing_of(RING | {"face_chamfer": 0.8}).views[0])
+    assert [both[name][3] for name in both if name.startswith("face")] == ["", "4 chamfers "]
+
+
 @pytest.mark.parametrize("teeth", [1, 7, 60])
 def test_as_many_teeth_of_a_ring_are_exact_as_are_wished(teeth: int) -> None:
     """The wished ones between tip and root, their roots two modules and a half wide of the pitch circle."""

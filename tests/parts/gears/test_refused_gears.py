@@ -47,6 +47,20 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
                            "space_tooth_pointed"),
     "ring root below its base": ({**RING, "profile_shift_coefficient": -4.0, "rounded_root": {
                                  "dedendum_coefficient": 0.3}}, "profile_shift_coefficient", "space_tip_below_base"),
+    "ring chamfer": ({**RING, "circumferential_thinning": 1.8, "face_chamfer": {"below": 0.6}}, "face_chamfer.below",
+                     "chamfer_leaves_nothing_of_outline"),
+    "ring chamfer, sharp roots": (
+        {**RING, "pressure_angle_deg": 25.0, "face_chamfer": 1.4, "outer_diameter": 140.0,
+         "rounded_root": {"dedendum_coefficient": 1.5, "radius_coefficient": 0.0, "full_round": False}},
+        "face_chamfer", "chamfer_leaves_nothing_of_outline"),
+    "ring chamfers and rim": ({**RING, "outer_diameter": 108.0, "face_chamfer": 0.9}, "face_chamfer",
+                              "leaves_no_face_between_edges"),
+    "ring chamfers and holes": ({**RING, "holes": {"count": 6, "diameter": 4.0, "pitch_circle_diameter": 110.0},
+                                "face_chamfer": 0.8}, "face_chamfer", "leaves_no_face_between_edges"),
+    "ring chamfers that meet": ({**RING, "face_width": 4.0, "outer_diameter": 140.0, "face_chamfer": 2.0},
+                                "face_chamfer", "chamfers_meet"),
+    "ring chamfer on a steep helix": ({**RING, "helix_angle_deg": 50.0, "face_chamfer": 0.2}, "face_chamfer",
+                                      "chamfer_on_steep_helix"),
     "rack tip": ({**RACK, "tip_rounding": 2.0}, "tip_rounding", "rounding_does_not_fit"),
     "rack pointed, helical": (
         {**RACK, **HELIX, "basic_rack": {"addendum_coefficient": 2.5, "tip_clearance_coefficient": 0.0}},

@@ -17,8 +17,9 @@ from geometry.gears.teeth.cutter import PinionCutter, checked_cutter, full_round
 from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_limits import checked_ring
-from geometry.gears.teeth.ring_offset import ring_region
+from geometry.gears.teeth.ring_offset import chamfered_teeth, ring_region
 from geometry.gears.teeth.ring_tooth import ring_side
+from geometry.gears.teeth.sector import Sector
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Label, Profile, Region, joint_turn
 from tests import brute
@@ -411,3 +412,31 @@ def test_thin_tips_and_rims_are_told_below_their_limits(rim: float, thickness: f
     wanted += [("thin_ring_rim", rim, 2.0)] if rim < 2 else []
     found = [(f.code, f.value, f.limit) for f in ring_limits.findings(made)]
     assert found == [(code, pytest.approx(value, rel=1e-9), pytest.approx(least)) for code, value, least in wanted]
+
+
+SHARP = RoundedRoot(1.25, 0.0)
+CHAMFERED: dict[str, RingGear] = {
+    **{name: CASES[name] for name in ("usual", "wide cutter", "sharp corner, centre inside the pitch circle")},
+    "rounded root": ring(40, RoundedRoot(1.25, 0.2), tip_chamfer=0.3),
+    "one round root": ring(40, RoundedRoot(), tip_rounding=0.6),
+    "sharp root": ring(40, SHARP),
+    "sector": ring(40, SHARP, sector=Sector(3, -2, 2)),
+}
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("inset", [0.0, 0.05])
+@pytest.mark.parametrize("name", CHAMFERED)
+def test_teeth_are_moved_for_a_chamfer_as_shapely_moves_them_and_keep_their_segments(name: str, inset: float) -> None:
+    """Sharp roots stay sharp, roundings of roots grow, those of tips shrink; an inset before rounds the corners."""
+    gear, depth, points = CHAMFERED[name], 0.4, 400 if name == "sector" else 60
+    whole = polygon(ring_region(gear, -inset).region.holes[0], points)
+    made = chamfered_teeth(gear, inset, depth, depth)
+    assert [s.label for s in made.period] == [s.label for s in chamfered_teeth(gear, inset, 0.0, depth).period]
+    wanted = whole.buffer(depth, join_style="mitre", mitre_limit=20.0)
+    found = polygon(made, points)
+    assert found.is_valid
+    assert found.symmetric_difference(wanted).area < 1e-4 * wanted.length
+    # of another depth it is another
+    other = polygon(chamfered_teeth(gear, inset, depth - 0.01, depth), points)
+    assert other.symmetric_difference(wanted).area > 5e-3 * wanted.length
