@@ -100,7 +100,7 @@ def _curves(sections: Sections, shares: Real) -> list[list[Curve]]:
     return [list(curves) for curves in zip(*rows, strict=True)]
 
 
-def pieces_needed(sections: Sections, *ways: Callable[[int], Sequence[float]]) -> Sequence[float]:
+def pieces_needed(sections: Sections, *ways: Callable[[int], tuple[float, ...]]) -> tuple[float, ...]:
     """The shares at which a chamfer is cut, so that each piece is near a polynomial: into 1, 2, 4 or 8.
 
     The first of the ``ways`` to cut it is taken that makes such pieces, else the first with 8.

@@ -621,3 +621,16 @@ def test_beside_parts_of_the_scene_a_set_tells_no_order() -> None:
 
 def test_a_herringbone_has_no_order() -> None:
     assert not scene(teeth=[24, 24, 72], helix_angle_deg=20.0, double_helical=True).steps
+
+
+def test_wheels_of_a_set_take_face_chamfers_in_their_own_tables() -> None:
+    """To print a set: below, the outside of the ring is less by the chamfer, its teeth are farther from the axis."""
+    keys = {"kind": "planetary_set", "teeth": [24, 24, 72], "satellites": 3, "module": 1.5, "frame": True}
+    raw = {"assemblies": [keys], "parts": {"ring": {"face_chamfer": {"below": 0.3}}, "sun": {"face_chamfer": 0.2}}}
+    parts = make_parts(scene_from_dict(raw, "t", "t"), "t")[0]
+    assert [parts[name].is_plate for name in ("ring", "sun", "satellite")] == [False, False, True]
+    body = parts["ring"].body(0.0)
+    (cap,) = (c for c in body.caps if not c.up)
+    outside, teeth = (body.loop_profile(loop) for loop in (cap.outer, cap.holes[0]))
+    assert outside.reach() == pytest.approx(parts["ring"].thing.outer_radius - 0.3, rel=1e-12)
+    assert teeth.reach() == pytest.approx(parts["ring"].thing.root_radius + 0.3, rel=1e-12)
