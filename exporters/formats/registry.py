@@ -48,6 +48,8 @@ Places = Sequence[tuple[str, str, Placement3, str | None]]
 _MOST_EDGES = 4_000_000
 # where slices and chords are counted, so far above their estimate a tolerance is tried, and sought so near
 _ABOVE, _NEAR = 1.05, 0.05
+# how often the tolerance that digits hold is tried
+_DOUBLINGS = 6
 # of these so many times fewer: writing and reading back takes 1.1 kB of memory an edge of an STL, 2.8 of a 3MF's text
 _HEAVIER = {"stl": 2, "3mf": 4}
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
@@ -154,6 +156,22 @@ def least_tolerance(content: Content) -> float:
     return 8 * number_rounding(content)
 
 
+def mesh_tolerance(contents: Sequence[tuple[Content, float]], least: float, given: float) -> Nearest | None:
+    """From the ``least`` that digits hold on, by doubling, one with which mesh files are made, each at its share, mm.
+
+    Not all that digits hold is made: of some the file would need too many edges.
+    """
+
+    def fits(tolerance: float) -> bool:
+        return all(
+            shape_of(replace(content, export=structs.replace(content.export, tolerance=share * tolerance)))
+            for content, share in contents
+        )
+
+    ends = [rounded(least * 2.0**k, up=True, digits=6) for k in range(_DOUBLINGS)]
+    return nearest(fits, given, ends, digits=6, share=1.0)
+
+
 def declared_error(content: Content, made: Shape) -> tuple[float, str]:
     """The bound of a whole file, mm: the worst boundary plus the rounding of its numbers."""
     worst, kinds = max(a.max_error for a in made), {a.bound for a in made}
@@ -184,7 +202,7 @@ def _chords(content: Content, tolerance: float) -> Chords:
 
     rounding = number_rounding(content)
     if content.tolerance < (least := least_tolerance(content)):
-        found = limit(least, content.tolerance, digits=6)
+        found = partial(mesh_tolerance, [(content, 1.0)], least, content.tolerance)
         raise ParameterError("tolerance", content.tolerance, "finer_than_mesh_digits", found)
     if content.body.is_faced:
         # one mesh for every format: it takes its time

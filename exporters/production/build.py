@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from exporters.formats.registry import Chords, Shape, least_tolerance, number_rounding, shape_of
+from exporters.formats.registry import Chords, Shape, least_tolerance, mesh_tolerance, number_rounding, shape_of
 from exporters.production.check_lines import has_bad_verdict, names_of
 from exporters.production.jobs import AssemblyJob, FileJob, Job, Made, ShapeKey, Written
 from exporters.production.moving import alone_in, move_into, staging_folder
@@ -16,7 +16,7 @@ from exporters.production.plan import Plan
 from exporters.production.preview import outlines_of, part_preview, scene_preview
 from exporters.production.report import NAME, whole_report, write_report
 from exporters.verification.verdict import Verdict
-from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, limit, rounded
+from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
@@ -175,7 +175,8 @@ def _for_every_part(refusal: ParameterError, job: Job, beside: Collection[Job]) 
     except ParameterError:
         # another part has no solid at this offset, of which it tells when it is the first
         return refusal
-    return ParameterError(refusal.name, job.asked, refusal.code, limit(least, job.asked, digits=6))
+    found = partial(mesh_tolerance, [(other, other.share) for other in every], least, job.asked)
+    return ParameterError(refusal.name, job.asked, refusal.code, found)
 
 
 def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -> Written:
