@@ -108,7 +108,7 @@ def test_a_mesh_that_would_take_a_laptop_s_memory_is_refused_before_it_is_made(f
 def test_what_is_offered_for_more_than_digits_hold_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The finest that float32 holds was offered where the file would then need too many edges, and was refused too."""
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 12, "face_width": 3.0}
-    monkeypatch.setattr("exporters.formats.registry._MOST_EDGES", 4000)
+    monkeypatch.setattr("exporters.formats.registry._MOST_EDGES", 8000)
     found = refused(gear, tmp_path, format="3mf", tolerance=1e-7)
     assert found.code == "finer_than_mesh_digits"
     assert found.nearest is not None
