@@ -27,6 +27,8 @@ from parts.scene.placing import PlacedMate, Placing
 
 # what is one place, mm
 _SAME = 1e-6
+# of the radius of an idler, to which its axes reach
+_BEYOND = 1.25
 # of their pitch circle, within which pins stand on it
 _SEATED = 1e-9
 _TITLE = "A-A"
@@ -112,7 +114,9 @@ def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: compl
         for one, two in zip(ends[1::2], [*ends[2::2], ends[0]], strict=True):
             yield AXIS, Line(one, two)
         for axis, rim in mate.idlers():
-            yield VISIBLE, circle_of(rim, (axis - centre) / way)
+            at = (axis - centre) / way
+            yield VISIBLE, circle_of(rim, at)
+            yield from ((AXIS, Line(at - _BEYOND * rim * along, at + _BEYOND * rim * along)) for along in (1.0, 1j))
 
 
 def _foot(mate: PlacedMate, first: complex, second: Placement3) -> complex:
