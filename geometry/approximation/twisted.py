@@ -26,7 +26,7 @@ from geometry.plane.profile import Profile
 _SHARES = np.linspace(0.0, 1.0, 17)
 # steps between slices that are tried: the coarsest leaves nothing to the chords, each next one is finer by this
 _LEAST_SLICING, _SLICINGS, _FINER = 0.93, 14, 0.85
-_MOST_CHORDS, _MOST_SHRINKS = 4096, 40
+_MOST_CHORDS, _MOST_SHRINKS = 4096, 100
 
 
 class _Chords(Draft):

@@ -139,8 +139,8 @@ def moved_profile(edges: Sequence[Edge], offset: float) -> Profile:
     return Profile(tuple(Segment(e, Label.BODY) for e in moved(partial(moved_edges, edges), offset)))
 
 
-def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:
-    """A closed counter-clockwise chain moved ``offset`` mm to its right, corners rounded or cut.
+def moved_edges(edges: Sequence[Edge], offset: float, *, sharp: bool = False) -> tuple[Edge, ...]:
+    """A closed counter-clockwise chain moved ``offset`` mm to its right, corners rounded or cut, or kept ``sharp``.
 
     Raises
     ------
@@ -154,11 +154,11 @@ def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:
     ends: list[tuple[complex, Arc | None, complex]] = []
     for index, (edge, carrier) in enumerate(alive):
         following, after = alive[(index + 1) % len(alive)]
-        ends.append(_joint(edge, carrier, following, after, offset))
+        ends.append(_joint(edge, carrier, following, after, 0.0 if sharp else offset))
     made: list[Edge] = []
     for index, (_, carrier) in enumerate(alive):
         leaving, arc, _ = ends[index]
-        made.append(_between(carrier, ends[index - 1][2], leaving))
+        made.append(_between(carrier, ends[index - 1][2], leaving, sharp=sharp))
         if arc is not None:
             made.append(arc)
     return tuple(made)
@@ -193,7 +193,7 @@ def _joint(
     return found, None, found
 
 
-def _between(carrier: Edge, start: complex, end: complex) -> Edge:
+def _between(carrier: Edge, start: complex, end: complex, *, sharp: bool) -> Edge:
     """The part of a moved edge between two points of it."""
     if isinstance(carrier, Line):
         way = complex(carrier.tangent(0.0))
@@ -202,8 +202,9 @@ def _between(carrier: Edge, start: complex, end: complex) -> Edge:
         return Line(start, end)
     made = arc_between(carrier.centre, start, end, carrier.sweep > 0)
     whole = abs(carrier.sweep)
-    # what is cut off on both sides is never longer than the arc; one that goes round again has turned over
-    if abs(made.sweep) > whole * (1 + 1e-9) + 1e-12:
+    # what is cut off on both sides is never longer than the arc, what sharp corners add less than half a turn; one that
+    # goes round again has turned over
+    if abs(made.sweep) > (whole + math.pi if sharp else whole * (1 + 1e-9) + 1e-12):
         raise GeometryError("arc_consumed")
     return made
 

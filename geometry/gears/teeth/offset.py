@@ -96,7 +96,7 @@ def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float
             return side.profile()
         from geometry.gears.teeth.sector_rim import sector_profile
 
-        return sector_profile(gear, side, assemble_side(curves, 2 * gear.pitch_angle), -inset - depth)
+        return sector_profile(gear, side, assemble_side(curves, 2 * gear.pitch_angle), -inset, depth)
 
     return at_chamfer(whole.tip_rounding, depth, deepest, profile)
 

@@ -52,13 +52,13 @@ def _section(gear: RingGear, offset: float) -> OffsetRegion:
     return OffsetRegion(Region(outer, (toothed, *gear.holes.profiles(offset))), offset, side.findings)
 
 
-def _toothed(gear: RingGear, side: RingSide, offset: float) -> Profile:
-    """The toothed boundary of sides that are moved ``offset`` mm out of the material."""
+def _toothed(gear: RingGear, side: RingSide, offset: float, depth: float = 0.0) -> Profile:
+    """The toothed boundary of sides moved ``offset`` mm out of the material and ``depth`` mm into it for a chamfer."""
     if gear.sector is None:
         return side.profile()
     from geometry.gears.teeth.sector_rim import sector_profile
 
-    return sector_profile(gear, side, side, offset)
+    return sector_profile(gear, side, side, offset, depth)
 
 
 def ring_sections(gear: RingGear, deepest: float) -> WheelSections:
@@ -85,7 +85,7 @@ def chamfered_teeth(gear: RingGear, inset: float, depth: float, deepest: float) 
 
     def profile(rounding: float) -> Profile:
         curves = replace(whole.cut(depth), tip_rounding=rounding)
-        return _toothed(gear, assemble_ring_side(curves, gear.pitch_angle), -inset - depth)
+        return _toothed(gear, assemble_ring_side(curves, gear.pitch_angle), -inset, depth)
 
     return at_chamfer(whole.tip_rounding, depth, deepest, profile)
 

@@ -132,9 +132,10 @@ def _seen(edge: Edge) -> Edge:
     return edge.mirrored().reversed()
 
 
-def sector_profile(gear: SpurGear | RingGear, side: Side, end: Side, offset: float) -> Profile:
-    """The toothed boundary, moved ``offset`` mm out of the material; ``side``: of its teeth moved so far, ``end``: the
-    outer one of a run, without a tooth beyond it.
+def sector_profile(gear: SpurGear | RingGear, side: Side, end: Side, offset: float, depth: float = 0.0) -> Profile:
+    """The toothed boundary, moved ``offset`` mm out of the material, and ``depth`` mm into it for a face chamfer.
+
+    ``side``: of its teeth moved so far, ``end``: the outer one of a run, without a tooth beyond it.
 
     Raises
     ------
@@ -143,7 +144,7 @@ def sector_profile(gear: SpurGear | RingGear, side: Side, end: Side, offset: flo
     """
     sector, run, sign = gear.sector, _Run.of(gear), gear.sign
     assert sector is not None
-    root = run.root + sign * offset
+    root = run.root + sign * (offset - depth)
     chain = _teeth(sector, run, sign, (side, end))
     feet = start_point(chain[0].curve), end_point(chain[-1].curve)
     if max(abs(abs(foot) - root) for foot in feet) > TOLERANCES.relative_join * root:
@@ -155,7 +156,7 @@ def sector_profile(gear: SpurGear | RingGear, side: Side, end: Side, offset: flo
         count = math.ceil(rest / _MOST_SWEEP)
         arcs = [Arc(0j, root, sign * (last + rest * k / count), sign * rest / count) for k in range(count)]
         return Profile((*chain, *(Segment(a, Label.ROOT_LAND) for a in arcs)), sector.runs, sign < 0)
-    moved = moved_edges(core_edges(gear), offset)
+    moved = moved_edges(moved_edges(core_edges(gear), offset), -depth, sharp=True)
     rim, *edges = moved[: len(moved) // sector.runs]
     lands = []
     for start, stop in ((start_point(rim), feet[0]), (feet[1], end_point(rim))):

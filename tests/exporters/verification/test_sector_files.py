@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from shapely.geometry import Polygon
 
 from geometry.gears.teeth.basic_rack import iso_53
@@ -109,3 +110,39 @@ def test_the_blank_of_a_ring_is_read_back_as_it_is(tmp_path: Path) -> None:
     ring: Keys = {"kind": "ring_gear", "module": 0.5, "number_of_teeth": 60, "face_width": WIDTH,
                   "sector": {"teeth": 2, "blank_diameter": 33.53}}  # fmt: skip
     assert run("build", write_scene(tmp_path / "s.toml", {"g": ring}, [{"format": "step"}]), "--out", tmp_path) == 0
+
+
+SHARP: dict[str, Keys] = {
+    "runs": GEAR | {"sector": {"teeth": 4, "runs": 2, "blank_diameter": 38.0}},
+    "cut": GEAR | {"sector": {"teeth": 6, "rest": "cut", "hub_diameter": 14.0}},
+    "ring": {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 24, "face_width": WIDTH,
+             "sector": {"teeth": 4, "runs": 2, "blank_diameter": 60.0}},
+}  # fmt: skip
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", SHARP)
+def test_sharp_corners_of_a_rest_stay_sharp_at_a_face_chamfer(tmp_path: Path, name: str) -> None:
+    """The lower face of the STL holds what shapely's mitre leaves of the upper one. Before: any depth was refused."""
+    part = SHARP[name] | {"face_chamfer": {"below": 0.5}}
+    scene = write_scene(tmp_path / "s.toml", {"g": part}, [{"format": "stl", "tolerance": 0.004}])
+    assert run("build", scene, "--out", tmp_path) == 0
+    (file,) = tmp_path.glob("s/*.stl")
+    corners = stl_triangles(file).corners.astype(float)
+    below, above = (
+        shapely.union_all([Polygon(c[:, :2]) for c in corners if np.ptp(c[:, 2]) == 0 and c[0, 2] == z])
+        for z in (0.0, WIDTH)
+    )
+    wanted = above.buffer(-0.5, join_style="mitre", mitre_limit=20.0)
+    assert below.symmetric_difference(wanted).area < 0.006 * wanted.length
+    # rounded corners are seen
+    assert (
+        below.symmetric_difference(above.buffer(-0.5)).area > wanted.symmetric_difference(above.buffer(-0.5)).area / 2
+    )
+
+
+@pytest.mark.heavy
+def test_the_long_sides_of_a_helical_sector_are_sliced_beside_a_chamfer(tmp_path: Path) -> None:
+    """14 mm long, they ask for finer slices than were tried: no tolerance could be met."""
+    part = SHARP["cut"] | {"helix_angle_deg": 15.0, "face_chamfer": {"below": 0.4}}
+    assert run("build", write_scene(tmp_path / "s.toml", {"g": part}, [{"format": "stl"}]), "--out", tmp_path) == 0

@@ -421,6 +421,7 @@ CHAMFERED: dict[str, RingGear] = {
     "one round root": ring(40, RoundedRoot(), tip_rounding=0.6),
     "sharp root": ring(40, SHARP),
     "sector": ring(40, SHARP, sector=Sector(3, -2, 2)),
+    "sector with a blank": ring(40, sector=Sector(3, -2, 2, 92.0)),
 }
 
 
@@ -429,7 +430,7 @@ CHAMFERED: dict[str, RingGear] = {
 @pytest.mark.parametrize("name", CHAMFERED)
 def test_teeth_are_moved_for_a_chamfer_as_shapely_moves_them_and_keep_their_segments(name: str, inset: float) -> None:
     """Sharp roots stay sharp, roundings of roots grow, those of tips shrink; an inset before rounds the corners."""
-    gear, depth, points = CHAMFERED[name], 0.4, 400 if name == "sector" else 60
+    gear, depth, points = CHAMFERED[name], 0.4, 400 if name.startswith("sector") else 60
     whole = polygon(ring_region(gear, -inset).region.holes[0], points)
     made = chamfered_teeth(gear, inset, depth, depth)
     assert [s.label for s in made.period] == [s.label for s in chamfered_teeth(gear, inset, 0.0, depth).period]
