@@ -173,6 +173,8 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if "float" in may_be and isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
         code = "comma_in_number_or_list" if "array" in may_be else "comma_in_number"
         return SceneError(source, where, value, code, None, whole=comma.group(1), part=comma.group(2))
+    if isinstance(value, str) and may_be & {"array", "object"} and value.startswith(("[", "{")):
+        return SceneError(source, where, value, "brackets_read_as_text")
     is_text = may_be - {"null"} == {"str"}
     if is_text and isinstance(value, list) and (listed_in := re.match(r"(exports|mates|drives)\[", where)):
         return SceneError(source, where, value, "one_for_each", None, table=listed_in[1])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from parts.base.mate import Pose, Toothed
 from parts.keys.base import MOST_LENGTH, either, mm
 
@@ -91,6 +92,8 @@ def check_idlers(
     ParameterError
         ``idlers[k].at`` of one of them.
     """
+    from geometry.plane.loop import Loop
+
     for wheel in (loop.wheels[k] for k in loop.missed()):
         if wheel in wheels:
             k = wheels.index(wheel)
@@ -101,9 +104,12 @@ def check_idlers(
                 # told with four decimals or fewer, it is still enough
                 least = math.ceil(least * 1e4) / 1e4
                 raise ParameterError(key, at, "idler_meets_wheel", apart=apart, least=least)
-            if loop.passes_by:
-                raise ParameterError(key, at, "idler_passed_by", other="false" if wheel.outside else "true")
-            raise ParameterError(key, at, "idler_in_strand")
+            if not loop.passes_by:
+                raise ParameterError(key, at, "idler_in_strand")
+            other = replace(wheel, outside=not wheel.outside)
+            if Loop(tuple(other if one is wheel else one for one in loop.wheels)).missed():
+                raise ParameterError(key, at, "idler_missed")
+            raise ParameterError(key, at, "idler_passed_by", other="true" if other.outside else "false")
 
 
 class Wrapped(Toothed, kw_only=True):

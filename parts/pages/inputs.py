@@ -66,20 +66,23 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
                 raise SceneError(PLACE, key, text, "has_a_value", None, key=part)
         if name in owner:
             raise SceneError(PLACE, key, text, "given_twice")
-        owner[name] = toml_value(text.strip())
+        owner[name] = _typed(text.strip())
     return table
 
 
-def toml_value(text: str) -> Any:
-    """A value as TOML has it; what is none, a number of thousands of digits and dates are plain text.
+def _typed(text: str) -> Any:
+    """A value, or a list of plain words, as no shell leaves their quotes."""
+    value = toml_value(text)
+    words = _PLAIN_LIST.fullmatch(text) if value == text else None
+    return value if words is None else [toml_value(word.strip()) for word in words[1].split(",")]
 
-    A list of plain words is one too, as no shell leaves their quotes.
-    """
+
+def toml_value(text: str) -> Any:
+    """A value as TOML has it; what is none, a number of thousands of digits and dates are plain text."""
     try:
         parsed = tomllib.loads(f"v = {text}")
     except (ValueError, RecursionError):
-        words = _PLAIN_LIST.fullmatch(text)
-        return [toml_value(word.strip()) for word in words[1].split(",")] if words else text
+        return text
     return msgspec.to_builtins(parsed["v"]) if set(parsed) == {"v"} else text
 
 

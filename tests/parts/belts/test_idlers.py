@@ -84,6 +84,12 @@ def test_calc_takes_the_drive_and_its_idlers_from_a_scene(tmp_path: Path) -> Non
     [
         ({"idlers": [ROLLER | {"at": [30.0, 25.0]}]}, r"\.at = \[30.0, 25.0\]: is not where .* outside = false"),
         ({"idlers": [{"at": [30.0, 1.0], "diameter": 4.0}]}, r"\.at = \[30.0, 1.0\]: .* outside = true"),
+        # behind the first pulley neither side goes round it
+        ({"idlers": [ROLLER | {"at": [-30.0, 0.0]}]}, r"\.at = \[-30.0, 0.0\]: is not where .* idler$"),
+        (
+            {"idlers": [ROLLER | {"at": [-30.0, 0.0], "outside": False}]},
+            r"\.at = \[-30.0, 0.0\]: is not where .* idler$",
+        ),
         # 3-4-5: 11.25 off the second's axis, the sum of the radii 60 / pi + 5.38
         ({"idlers": [ROLLER | {"at": [51.0, 6.75]}]}, r"\.at = .*: is 11\.25 mm off .*: at least 24\.4786 mm"),
         ({"idlers": [{"at": [30.0, 0.0], "diameter": 4.0}]}, r"idlers\[1\].at"),
@@ -98,6 +104,15 @@ def test_idlers_that_do_not_go_are_refused_by_their_key(mate: Keys, words: str) 
     keys = {k: v for k, v in ({"centre_distance": 60.0} | mate).items() if v is not None}
     with pytest.raises(SceneError, match=words):
         placed(keys)
+
+
+@pytest.mark.parametrize("typed", ["[{at=[30,11],diameter=10,outside=True}]", "[{at=[30,11],diameter=ten}]"])
+def test_a_list_that_is_none_of_toml_is_told_so(typed: str) -> None:
+    """It had to be a list in brackets, which it seems to be."""
+    keys = ["belt=GT2", "number_of_teeth=20", "mate_number_of_teeth=36", "centre_distance=60", f"idlers={typed}"]
+    with pytest.raises(SceneError) as refused:
+        calculate("belt", keys, "text", "en")
+    assert (refused.value.key, refused.value.code) == ("belt.idlers", "brackets_read_as_text")
 
 
 def test_what_is_offered_where_the_belt_passes_an_idler_goes_round_it() -> None:
