@@ -195,21 +195,34 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
 
     One longer than ``most`` mm is narrowed a little, made smaller, or narrowed as far as it must.
     """
+    told, size, pieces = _fitted(text, height, most)
+    runs, x = [], at.real
+    for bare, low, drop, lead, long, width in pieces:
+        if bare:
+            runs.append(Run(bare, complex(x + lead, at.imag - drop), low, long))
+        x += width
+    # room for what hangs below the line
+    hang = max((at.imag - run.at.imag + _HANG * run.height for run in runs), default=0.0)
+    return Text(told, tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
+
+
+# letters, their height, how far below the line, from the piece's beginning, their length, that of the piece, mm
+_Piece = tuple[str, float, float, float, float, float]
+
+
+@lru_cache(_WORDS)
+def _fitted(text: str, height: float, most: float | None) -> tuple[str, float, list[_Piece]]:
+    """What a line tells, its height, and of each piece its lengths: words look for their places by the thousand."""
     sizes = [h for h in reversed(HEIGHTS) if h <= height] or [LEAST_TEXT]
     size = next((h for h in sizes if most is None or NARROWED * text_width(text, h) <= most), sizes[-1])
     natural = text_width(text, size)
     squeeze = min(1.0, (natural if most is None else most) / natural) if natural else 1.0
-    runs, x = [], at.real
+    pieces = []
     for piece, low, is_index in _pieces(text, size):
-        width, bare = plain_width(piece, low) * squeeze, piece.strip(" ")
-        if bare:
-            lead = plain_width(piece[: len(piece) - len(piece.lstrip(" "))], low) * squeeze
-            place = complex(x + lead, at.imag - (_DROP * size if is_index else 0.0))
-            runs.append(Run(bare, place, low, plain_width(bare, low) * squeeze))
-        x += width
-    # room for what hangs below the line
-    hang = max((at.imag - run.at.imag + _HANG * run.height for run in runs), default=0.0)
-    return Text(_INDEX.sub(r"\1", text), tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
+        lead, bare = piece[: len(piece) - len(piece.lstrip(" "))], piece.strip(" ")
+        lead_width, long, width = (plain_width(part, low) * squeeze for part in (lead, bare, piece))
+        pieces.append((bare, low, _DROP * size if is_index else 0.0, lead_width, long, width))
+    return _INDEX.sub(r"\1", text), size, pieces
 
 
 def rising_text(
