@@ -206,6 +206,40 @@ def test_both_gears_stand_in_a_table() -> None:
     assert rows[0]["σ_H (MPa)"] == rows[1]["σ_H (MPa)"]
 
 
+@pytest.mark.parametrize("widths", [(30, 20), (20, 30)])
+def test_the_narrower_face_bears(widths: tuple[int, int]) -> None:
+    """By hand: sigma_H0 falls with the root of the common width, 20 mm."""
+    each, whole = (f"first.face_width={widths[0]}", f"second.face_width={widths[1]}"), ("face_width=80",)
+    bare, wide = (values(*PAIR, "torque=10", *keys)["values"] for keys in (each, whole))
+    assert bare["face_width"] == 20
+    assert bare["nominal_contact_stress"] == pytest.approx(2 * wide["nominal_contact_stress"])
+
+
+def test_factors_of_soft_and_hard_flanks_by_hand() -> None:
+    """ISO 6336-2: Z_W = 1.2 - (HB - 130) / 1700 of a soft gear on a hard one alone, C_ZL = 0.83 of the softer one."""
+    mixed = values(*PAIR, 'material_group=["Eh","V alloy"]', "hardness=[700,240]", "oil_viscosity=100")["values"]
+    assert mixed["hardening_factor"] == {"first": 1.0, "second": pytest.approx(1.2 - 110 / 1700)}
+    hard = values(*PAIR, 'material_group=["NV","Eh"]', "hardness=[450,700]")["values"]
+    assert hard["hardening_factor"] == {"first": 1.0, "second": 1.0}
+    for limits in ("[1300,800]", "[800,1300]"):
+        assert values(*PAIR, f"contact_limit={limits}", "oil_viscosity=100")["values"]["lubricant_coefficient"] == 0.83
+    # by GOST 21354-87 Z_v = 0.85 v^0.1 of soft flanks; 10 m/s on a radius of 30 mm
+    fast = values(*PAIR, GOST, "contact_limit=500", f"speed_rpm={1e4 / math.pi}")["values"]
+    assert fast["gost_flank_factor"]["first"] == pytest.approx(0.85 * 10**0.1)
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [((*PAIR, "material_group=V alloy", "hardness=360"), False),
+     ((*PAIR, "material_group=V alloy", "hardness=361"), True),
+     ((*RING, "rim_thickness=[30,3.51]"), False), ((*RING, "rim_thickness=[30,3.49]"), True)],
+)  # fmt: skip
+def test_remarks_begin_at_the_limits_of_the_standard(typed: tuple[str, ...], told: bool) -> None:
+    """ISO 6336-5: lines of alloyed steel hold to 360 HV; ISO 6336-3: rims of rings from 1.75 modules on."""
+    notes = values(*typed)["notes"]
+    assert any("is outside" in note or "too thin" in note for note in notes) == told
+
+
 def test_the_load_helps_no_tooth() -> None:
     """Twice the torque is twice the bending stress and sqrt 2 of the contact stress."""
     one, two = (values(*PAIR, f"torque={t}")["values"] for t in (20, 40))

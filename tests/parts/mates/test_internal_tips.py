@@ -69,6 +69,7 @@ def deepest(raw: dict[str, Any]) -> tuple[float, dict[str, Part]]:
             turned = affinity.rotate(shape, stand[name].rotation, origin=(0, 0), use_radians=True)
             shapes[name] = affinity.translate(turned, *stand[name].at[:2])
         pinion, space = shapes["pinion"], shapes["ring"]
+        shapely.prepare([pinion, space])
         corners = shapely.points(np.array(pinion.exterior.coords))
         stray = corners[~shapely.covers(space, corners)]
         worst = max([worst, *shapely.distance(stray, space)])

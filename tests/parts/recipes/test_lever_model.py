@@ -262,7 +262,8 @@ def lifted(folder: Path) -> dict[str, float]:
     return found
 
 
-@pytest.mark.parametrize("name", ["six", "slotted", pytest.param("crank_slider", marks=pytest.mark.heavy)])
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["six", "slotted", "crank_slider"])
 def test_caps_hold_every_link_on_the_frame(name: str, made: Callable[[str], Path], tmp_path: Path) -> None:
     """By solids: what is lifted runs into a cap, a link or the frame; without caps the last link comes off."""
     held = lifted(made(name))
@@ -289,7 +290,8 @@ def test_a_cap_for_which_there_is_no_room_is_left_out(
     assert caps[54.0].count("rod") == 0
 
 
-@pytest.mark.parametrize("name", ["six", "slotted", pytest.param("crank_slider", marks=pytest.mark.heavy)])
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["six", "slotted", "crank_slider"])
 def test_check_finds_it_clear(
     name: str, made: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

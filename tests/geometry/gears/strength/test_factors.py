@@ -45,6 +45,38 @@ def test_limits_of_two_steels_of_a_report() -> None:
     assert GROUPS["V alloy"].bending["MQ"].at(240) == pytest.approx(290, abs=2)
 
 
+# of each group a hardness, and sigma_Hlim and sigma_Flim there of ML, MQ and ME, MPa, by hand from ISO 6336-5, table 1
+BORNE = {
+    "St": (150, (340.0, 340.0, 478.0), (137.25, 137.25, 204.9)),
+    "V": (200, (475.6, 545.0, 599.6), (158.0, 211.0, 258.6)),
+    "V alloy": (300, (581.9, 766.9, 923.9), (230.9, 314.5, 338.4)),
+    "Eh": (700, (1300.0, 1500.0, 1650.0), (312.0, 425.0, 525.0)),
+    "IF": (550, (1009.0, 1179.55, 1290.75), (243.75, 365.9, 386.05)),
+    "NT": (700, (1125.0, 1250.0, 1450.0), (270.0, 420.0, 468.0)),
+    "NV": (600, (788.0, 998.0, 1217.0), (258.0, 363.0, 432.0)),
+    "NV nitrocarburized": (500, (650.0, 760.0, 760.0), (224.0, 290.0, 290.0)),
+    "GTS": (200, (417.2, 417.2, 533.6), (146.0, 146.0, 208.6)),
+    "GGG": (250, (569.5, 569.5, 625.0), (206.5, 206.5, 229.0)),
+    "GGG ferritic": (200, (497.8, 497.8, 550.0), (189.0, 189.0, 210.0)),
+    "GG": (200, (338.6, 338.6, 415.0), (59.2, 59.2, 93.0)),
+}
+
+
+@pytest.mark.parametrize("name", GROUPS)
+def test_limits_by_hand(name: str) -> None:
+    hardness, contact, bending = BORNE[name]
+    for lines, stresses in ((GROUPS[name].contact, contact), (GROUPS[name].bending, bending)):
+        assert [lines[q].at(hardness) for q in QUALITIES] == pytest.approx(stresses, abs=1e-9)
+
+
+def test_lives_and_slip_layers_by_hand() -> None:
+    """ISO 6336-2, table 2: pits that are allowed; ISO 6336-3: rho' of quenched steel, and the deep teeth of grade 4."""
+    pitted = GROUPS["V"].contact_knots(pits=True)
+    assert [iso6336.life_factor(pitted, n, 0.85) for n in (6e5, 1e7, 1e9)] == pytest.approx([1.6, 1.3, 1.0])
+    assert GROUPS["V"].slip_layer(800.0) == pytest.approx(0.0064)
+    assert iso6336.deep_tooth_factor(2.06, 4) == pytest.approx(2.366 - 0.666 * 2.06)
+
+
 def test_the_dynamic_factor_by_hand() -> None:
     """Grade 6, 200 N/mm, v z_1 / 100 sqrt(u^2 / (1 + u^2)) = 1 m/s; halves of both kinds at an overlap of 0.5."""
     straight = 1 + (14.9 / 200 + 0.0193) * 1 * (2.071 - 0.357)

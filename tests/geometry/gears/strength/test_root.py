@@ -212,6 +212,27 @@ def test_virtual_teeth_of_a_helix_have_the_rack_that_was_typed() -> None:
     assert root_section(turned) is not None
 
 
+def test_a_cutter_of_so_many_teeth_leaves_a_helix_the_section_of_its_rack() -> None:
+    """Its rounding and its height are those of the normal section, whatever the helix: those of the rack in the end."""
+    helix, found = 0.5, []
+    for cutter in (None, PinionCutter(2.0, 20_000, math.radians(20), addendum=1.25, tip_rounding=0.3)):
+        gear = transverse_gear(rack_cut(40, 0.2, rounding=0.3, cutter=cutter), helix)
+        section = root_section(virtual_gear(gear, helix))
+        assert section is not None
+        found.append((section.thickness, section.radius, section.distance))
+    assert found[1] == pytest.approx(found[0], rel=2e-3)
+
+
+def test_a_rounded_root_of_a_helical_ring_is_as_deep_in_its_normal_section() -> None:
+    """Heights along a radius are the same in both sections, and so is the arc that was typed in normal modules."""
+    ring = RingGear(2.0, 60, math.radians(20), 1e9, RoundedRoot(1.25, 0.3))
+    section = transverse_ring(ring, 0.5)
+    virtual = virtual_gear(section, 0.5)
+    assert isinstance(virtual, RingGear)
+    assert virtual.root_radius - virtual.reference_radius == pytest.approx(2.0 * 1.25)
+    assert virtual.root == RoundedRoot(pytest.approx(1.25), pytest.approx(0.3))
+
+
 def test_where_no_tangent_touches_there_is_no_section() -> None:
     """A ring with a root of no rounding has a corner, and a rack of 35 degrees flanks steeper than the tangent."""
     assert root_section(RingGear(2.0, 60, math.radians(20), 1e9, RoundedRoot(1.25, 0.0))) is None
