@@ -84,6 +84,20 @@ def test_a_wheel_is_pressed_on_until_the_loop_is_as_long_as_asked() -> None:
     assert loop.tightened(1, 300.0) is None
 
 
+@pytest.mark.parametrize(
+    ("others", "free"),
+    [
+        # wheels of 10 mm that all but touch, and that overlap by 0.1 mm
+        ([(20.01 + 0j, 10.0)], True), ([(19.9 + 0j, 10.0)], False),
+        # a strand 10.5 mm over a wheel of the other side, less and more than its radius
+        ([(100 + 0j, 10.0), (50 - 0.5j, 10.4)], True), ([(100 + 0j, 10.0), (50 - 0.5j, 10.6)], False),
+    ],
+)  # fmt: skip
+def test_wheels_and_strands_keep_off_each_other(others: list[tuple[complex, float]], free: bool) -> None:
+    loop = Loop(tuple(Wheel(*wheel) for wheel in [(0j, 10.0), *others]))
+    assert (loop.missed() == ()) == free
+
+
 def test_no_place_is_told_where_the_line_would_leave_another_wheel() -> None:
     """A place was told where its length jumps: a belt of 142 mm would have hung by 1.26 mm there."""
     wheels = [(0j, 33 / math.pi), (45.3 + 0j, 16 / math.pi), (15.85 - 7.05j, 3.33), (29.45 - 7.24j, 2.98)]

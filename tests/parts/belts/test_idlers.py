@@ -15,6 +15,7 @@ import pytest
 from exporters.documents.topics import calculate
 from exporters.formats.read_motion import read_motion
 from parts.base.refusal import SceneError
+from parts.mates.wrapped import idler_quantities
 from tests.exporters.making import run, table, write_scene
 from tests.parts.belts.test_timing_pulleys import LARGE, MATE, PLATE, Keys, placed
 
@@ -163,3 +164,8 @@ def test_pictures_have_the_idlers_and_all_that_runs_about_them(tmp_path: Path, k
     assert spoiled != text
     film.write_text(spoiled, encoding="utf-8")
     assert run("verify", film) == 1
+
+
+def test_the_least_wrap_of_all_idlers_is_told() -> None:
+    assert idler_quantities([1.0, math.pi / 6, 2.0], None) == {"idler_wrap_deg": pytest.approx(30.0)}
+    assert idler_quantities([1.0], 3 - 4j).keys() == {"idler_wrap_deg", "taut_idler_x", "taut_idler_y"}

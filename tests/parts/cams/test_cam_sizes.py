@@ -221,8 +221,7 @@ def test_the_return_may_have_a_transmission_angle_of_its_own(rise: float, back: 
     assert any(f.code.endswith("transmission_angle_not_kept") for f in small.findings)
 
 
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("back", [0.0, 30.0, 50.0, None])
+@pytest.mark.parametrize("back", [0.0, 30.0, pytest.param(50.0, marks=pytest.mark.heavy), None])
 def test_a_swinging_roller_keeps_the_angle_of_its_rise_alone_where_it_is_asked_to(back: float | None) -> None:
     """tan nu = (L (1 + psi') - d cos psi) / (d sin psi) over dense samples: the least arm angle at which it holds."""
     arm, distance, rise = 70.0, 95.0, 50.0

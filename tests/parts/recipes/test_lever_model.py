@@ -290,8 +290,7 @@ def test_a_cap_for_which_there_is_no_room_is_left_out(
     assert caps[54.0].count("rod") == 0
 
 
-@pytest.mark.sampled(1)
-@pytest.mark.parametrize("name", ["six", "slotted", "crank_slider"])
+@pytest.mark.parametrize("name", ["six", "slotted", pytest.param("crank_slider", marks=pytest.mark.heavy)])
 def test_check_finds_it_clear(
     name: str, made: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
