@@ -247,6 +247,21 @@ def test_a_swinging_roller_keeps_the_angle_of_its_rise_alone_where_it_is_asked_t
     assert part.circles["prime_circle_diameter"] / 2 == pytest.approx(prime, abs=0.02)
 
 
+def test_of_a_swinging_roller_the_steeper_return_is_told() -> None:
+    """By the same formula, the arm's least angle by the law of cosines: a return that is steeper than the rise."""
+    arm, distance, prime = 70.0, 95.0, 48.0
+    part = part_of(cam(lift=None, swing_deg=20.0, oscillating={"centre_distance": distance, "arm_length": arm},
+                       base_circle_radius=prime - 3.0, bore_diameter=0.0, least_transmission_angle_deg=85.0,
+                       follower_radius=3.0))  # fmt: skip
+    unit, steep = math.radians(20.0) / H, []
+    for s, v, _ in (RISE, FALL):
+        psi = math.acos((distance**2 + arm**2 - prime**2) / (2 * distance * arm)) + unit * s
+        tangent = (arm * (1 + unit * v) - distance * np.cos(psi)) / (distance * np.sin(psi))
+        steep.append(math.degrees(np.abs(np.arctan(tangent)).max()))
+    assert steep[1] > steep[0] + 1.0
+    assert finding(part, "transmission_angle_not_kept") == (pytest.approx(90 - steep[1], abs=1e-3), 85.0)
+
+
 def test_the_angle_of_the_return_is_blamed_where_it_asks_for_too_much() -> None:
     raw = scene_of(cam(lift=None, swing_deg=20.0, oscillating={"arm_length": 70.0}, base_circle_radius=None,
                        bore_diameter=0.0, least_transmission_angle_deg=50.0))  # fmt: skip
