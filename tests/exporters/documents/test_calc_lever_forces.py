@@ -373,6 +373,7 @@ def test_every_printed_formula_gives_its_value(words: str) -> None:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.symbol, step.formula)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "keys", [("assignment=4", "velocity_scale=0.1"), ("assignment=8",), ("assignment=10",)], ids=str
 )

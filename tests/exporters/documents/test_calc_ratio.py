@@ -49,7 +49,7 @@ def test_one_pair_has_the_fewest_teeth_of_all(ratio: str, share: str) -> None:
     assert len({*found}) == len(found)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("coaxial", [False, True])
 @pytest.mark.parametrize(
     ("ratio", "share"),

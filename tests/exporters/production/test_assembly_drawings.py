@@ -260,7 +260,7 @@ def test_no_leader_goes_along_an_axis_or_the_mark_of_a_section() -> None:
     assert len(found) == 2
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "address", ["chain_drive", "belt_drive", "helical_pair", "cycloidal_reducer", "practicum_pair"]
 )

@@ -60,6 +60,7 @@ def roller_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return file
 
 
+@pytest.mark.heavy
 def test_both_languages_write_the_same_sheet_and_it_is_good(roller_file: Path, tmp_path: Path) -> None:
     verdict = roller_job("en").verify(roller_file, 0.0)
     assert verdict.failures == ()

@@ -381,7 +381,7 @@ def test_the_section_of_a_cam_stands_in_projection_with_its_face(tmp_path: Path,
     assert len(signs) == (angle != 90.0)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["geneva", "oval", "cam"])
 def test_what_stands_behind_the_section_of_a_wheel_that_is_not_round_is_seen_in_it(tmp_path: Path, name: str) -> None:
     """GOST 2.305: the right half of the face in projection; sections ended at their plane, axes before the outline."""

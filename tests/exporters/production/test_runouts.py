@@ -84,7 +84,7 @@ class Read:
         return far[0]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", CASES)
 def test_frames_point_at_what_runs_and_name_the_size_that_has_the_mark(
@@ -171,6 +171,7 @@ def test_a_tolerance_stands_as_it_is_given_and_is_not_rounded_up(tmp_path: Path)
     assert {"0.0125", "0.0004"} <= {text for text, _ in Read(dxf).words}
 
 
+@pytest.mark.heavy
 def test_smaller_sizes_stand_nearer_where_one_had_to_be_placed_before_them(tmp_path: Path) -> None:
     """GOST 2.307: the mark of the datum stood in the way of the mounting distance, which then took the first row."""
     gear = PARTS["bevel"] | {"module": 10.0, "number_of_teeth": 90, "mate_number_of_teeth": 18, "face_width": 120.0,

@@ -267,6 +267,7 @@ def test_the_wrong_screw_is_seen_in_a_mesh(name: str) -> None:
     assert verify_mesh(mesh, body_of(PARTS[name] | {"double_helical": other}), declared, 0.03).failures
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("upper", [False, True])
 def test_a_chamfer_that_is_turned_is_seen(upper: bool) -> None:
     """The roof over another place of the helix, as over the section at the face itself."""

@@ -132,6 +132,7 @@ def other(change: str) -> Body:
     return body
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", KEYS)
 def test_a_mesh_is_its_part_s_and_no_neighbour_s(name: str) -> None:
     mesh, body = mesh_of(name), body_of(name)
@@ -158,6 +159,7 @@ def test_a_mesh_is_its_part_s_and_no_neighbour_s(name: str) -> None:
         assert re.search(OTHERS[change][2], found), (change, found)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", KEYS)
 def test_a_solid_is_its_part_s_and_no_neighbour_s(name: str) -> None:
     solid, body = solid_of(name), body_of(name)

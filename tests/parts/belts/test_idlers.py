@@ -122,6 +122,7 @@ def test_what_is_offered_where_the_belt_passes_an_idler_goes_round_it() -> None:
         assert told([idler | other])["idler_wrap_deg"] > 0
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ["belt", "chain"])
 def test_pictures_have_the_idlers_and_all_that_runs_about_them(tmp_path: Path, kind: str) -> None:
     """No part is an idler: none was in a picture, which was cut off where the loop leaves the two wheels' rectangle."""

@@ -179,7 +179,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     return lambda name: built(folder, name)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ALL)
 def test_the_film_shows_the_mechanism(name: str, made: Callable[[str], Path]) -> None:
     """At 60 angles of the crank, every link; a millimetre more of one length is seen."""
@@ -262,6 +262,7 @@ def lifted(folder: Path) -> dict[str, float]:
     return found
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["six", "slotted", pytest.param("crank_slider", marks=pytest.mark.heavy)])
 def test_caps_hold_every_link_on_the_frame(name: str, made: Callable[[str], Path], tmp_path: Path) -> None:
     """By solids: what is lifted runs into a cap, a link or the frame; without caps the last link comes off."""
@@ -289,6 +290,7 @@ def test_a_cap_for_which_there_is_no_room_is_left_out(
     assert caps[54.0].count("rod") == 0
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["six", "slotted", pytest.param("crank_slider", marks=pytest.mark.heavy)])
 def test_check_finds_it_clear(
     name: str, made: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -414,7 +416,7 @@ REFUSED: list[tuple[Keys, Keys, str, str]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("mechanism", "keys", "said", "offered"), REFUSED)
 def test_what_cannot_be_cut_is_refused_by_its_key(
     mechanism: Keys, keys: Keys, said: str, offered: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

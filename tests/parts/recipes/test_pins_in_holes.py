@@ -105,6 +105,7 @@ def test_a_pin_beside_its_hole_one_that_is_thick_and_one_that_ends_in_the_air_ar
         assert faults([*found[:place], other, *found[place + 1 :]]) != []
 
 
+@pytest.mark.heavy
 def test_a_printed_dowel_has_the_clearance_that_the_notes_tell(tmp_path: Path) -> None:
     """0.1 mm across, of which chords of the STL take a fifth at most: of the widest dowel, of the narrowest hole."""
     import manifold3d

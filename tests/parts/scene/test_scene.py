@@ -129,7 +129,7 @@ REMARKS = {
 LONG = {"lesson_4", "lesson_5", "working_drawings", "power_module"}
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.heavy] * (name in LONG)) for name in built_in_scenes()]
 )

@@ -78,6 +78,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return out
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["bevel_differential", "bevel_reducer"])
 def test_solids_stand_in_the_film_as_the_scene_has_them(name: str, built: Path) -> None:
     """Corners of every solid within what the file declares, at shares of the loop that no value stands at."""
