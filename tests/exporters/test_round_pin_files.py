@@ -102,6 +102,7 @@ def test_check_tells_a_wrong_phase(tmp_path: Path, capsys: pytest.CaptureFixture
         assert ("BROKEN" in said) is (code == 1)
 
 
+@pytest.mark.heavy
 def test_lost_motion_is_how_far_the_disc_of_a_file_turns_between_its_pins(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

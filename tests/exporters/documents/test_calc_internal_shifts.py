@@ -465,6 +465,7 @@ def test_the_given_shifts_have_the_numbers_of_a_check(
     assert ("made shallower" in render(page, "text", "en")) is limited
 
 
+@pytest.mark.heavy
 def test_helical_choices_are_those_of_built_pairs() -> None:
     """Pinion and ring of a build from the normal shifts that are told, and every formula by its own numbers."""
     beta, width = 18.0, 24.0

@@ -331,6 +331,7 @@ def test_no_masses_no_forces() -> None:
         assert [row[1:] for name in ("force_plan_23", "force_plan_1") for row in rows(data, name)] == [[0, 0, 0]] * 6
 
 
+@pytest.mark.heavy
 def test_forces_across_their_velocities_balance_by_themselves() -> None:
     """A mass on an even crank asks no moment, whatever rounding leaves: the check is measured by what forces could."""
     for assignment in range(1, 11):

@@ -243,6 +243,7 @@ def test_a_ratio_of_other_links_leads_to_them() -> None:
     assert 1 + row["z_1"] / row["z_3"] == pytest.approx(1.3, rel=5e-3)
 
 
+@pytest.mark.heavy
 def test_a_scheme_that_is_told_takes_the_module_of_the_second_mesh() -> None:
     asked = ["ratio=3", "second_module=2"]
     told = refused("scheme=two_internal", *asked).partition("some have it with ")[2].partition(";")[0]

@@ -92,6 +92,7 @@ def test_sizes_measure_the_scene_and_every_position_has_its_number(
     assert not audit.fixes
 
 
+@pytest.mark.heavy
 def test_a_rack_stands_off_the_gear_by_its_datum_line_wherever_its_middle_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

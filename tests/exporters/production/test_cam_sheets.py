@@ -134,6 +134,7 @@ def test_numbers_on_the_sheet_are_those_of_the_calculation(name: str) -> None:
     assert texts[start - 17] == "№"
 
 
+@pytest.mark.heavy
 def test_a_table_that_goes_on_has_its_heads_and_units_there_too() -> None:
     jobs = plan_build(cam_scene(ROCKER, paper="A4", intervals=40, tolerance=1e-2), "t", [], []).sheets
     told = [[text.text for text in job.canvas.texts] for job in jobs]

@@ -192,6 +192,7 @@ def test_dimension_lines_stand_beyond_numbers_where_leaders_would_cross_them(tmp
     assert run_over(tmp_path / job.path) == 0
 
 
+@pytest.mark.heavy
 def test_edges_that_are_one_on_paper_are_drawn_once(tmp_path: Path) -> None:
     """The posts of a cage behind its section: edges 0.0003 mm from each other were two lines."""
     cage = msgspec.to_builtins(load_scene("power_module").parts["large_cage"])
@@ -207,6 +208,7 @@ def test_the_sign_on_the_seats_of_a_ring_keeps_off_dimension_lines(tmp_path: Pat
     assert run_over(tmp_path / job.path) == 0
 
 
+@pytest.mark.heavy
 def test_an_angle_without_room_beside_sizes_chooses_before_them(tmp_path: Path) -> None:
     """As it was: the tip angle found room at 1:5 only, with leaders across each other."""
     scene = load_scene("bevel_differential")

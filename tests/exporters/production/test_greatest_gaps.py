@@ -30,6 +30,7 @@ def polygon(points: np.ndarray, turn: float, at: float = 0.0) -> shapely.Polygon
     return shapely.Polygon(np.column_stack([placed.real, placed.imag]))
 
 
+@pytest.mark.heavy
 def test_the_greatest_gap_is_where_teeth_part_that_others_do_not_follow_yet(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -135,6 +135,7 @@ def test_frames_point_at_what_runs_and_name_the_size_that_has_the_mark(
     assert any(t == letter and abs(p + complex(1.2, 1.75) - middle) < 1.0 for t, p in sheet.words)
 
 
+@pytest.mark.heavy
 def test_a_bevel_gear_has_them_at_its_tip_cone_and_back_face(tmp_path: Path) -> None:
     """The leader to the cone is square to it: tan(delta_a) as its table has it."""
     dxf, svg = written(tmp_path, PARTS["bevel"], drawing=RUNOUTS)

@@ -54,6 +54,7 @@ def test_an_old_processor_writes_the_same_files(tmp_path: Path, here: Callable[[
         assert unlike(elsewhere([scene], OLD, tmp_path / scene), here(scene)) == []
 
 
+@pytest.mark.heavy
 def test_an_old_processor_tells_the_same_place_of_contact() -> None:
     """Teeth that touch all the way have the same gap everywhere: where it is least, rounding must not choose."""
 

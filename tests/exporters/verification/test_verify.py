@@ -93,6 +93,7 @@ def test_an_unspoiled_file_passes(originals: Path, tmp_path: Path, name: str, ca
     assert "as reported" in capsys.readouterr().out
 
 
+@pytest.mark.heavy
 def test_files_of_one_report_are_held_against_parts_that_are_made_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

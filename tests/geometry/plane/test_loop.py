@@ -98,6 +98,7 @@ def test_wheels_and_strands_keep_off_each_other(others: list[tuple[complex, floa
     assert (loop.missed() == ()) == free
 
 
+@pytest.mark.heavy
 def test_no_place_is_told_where_the_line_would_leave_another_wheel() -> None:
     """A place was told where its length jumps: a belt of 142 mm would have hung by 1.26 mm there."""
     wheels = [(0j, 33 / math.pi), (45.3 + 0j, 16 / math.pi), (15.85 - 7.05j, 3.33), (29.45 - 7.24j, 2.98)]

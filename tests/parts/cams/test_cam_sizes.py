@@ -262,6 +262,7 @@ def test_of_a_swinging_roller_the_steeper_return_is_told() -> None:
     assert finding(part, "transmission_angle_not_kept") == (pytest.approx(90 - steep[1], abs=1e-3), 85.0)
 
 
+@pytest.mark.heavy
 def test_the_angle_of_the_return_is_blamed_where_it_asks_for_too_much() -> None:
     raw = scene_of(cam(lift=None, swing_deg=20.0, oscillating={"arm_length": 70.0}, base_circle_radius=None,
                        bore_diameter=0.0, least_transmission_angle_deg=50.0))  # fmt: skip

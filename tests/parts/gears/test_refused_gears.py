@@ -143,6 +143,7 @@ def test_of_two_shifts_without_a_cut_the_larger_is_blamed(own: float, cutters: f
     assert (refused.key, refused.value) == (f"parts.p.{blamed}profile_shift_coefficient", cutters if blamed else own)
 
 
+@pytest.mark.heavy
 def test_a_relief_leaves_no_flank_that_crosses_it_below_the_form_circle() -> None:
     """Of an undercut gear: refused from the height on at which both crossings are on one circle, to 50 digits."""
     low, high = 0.8, 1.0

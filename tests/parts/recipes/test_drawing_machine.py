@@ -183,7 +183,7 @@ def test_it_goes_together_and_round(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert re.search(r"solids in motion: \d+ pairs over the period of each", said)
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize("keys", [
     {"size": 10.0, "smoothing": 1.0}, {"size": 20.0, "smoothing": 0.05, "follower_radius": 15.0},
 ], ids=["room about the shaft", "curvature"])  # fmt: skip

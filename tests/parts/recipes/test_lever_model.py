@@ -273,6 +273,7 @@ def test_caps_hold_every_link_on_the_frame(name: str, made: Callable[[str], Path
     assert min(lifted(tmp_path / "m").values()) == 0
 
 
+@pytest.mark.heavy
 def test_a_cap_for_which_there_is_no_room_is_left_out(
     made: Callable[[str], Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

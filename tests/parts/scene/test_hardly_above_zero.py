@@ -67,7 +67,7 @@ BARREL = {"kind": "barrel_cam", "form": "groove", "outer_diameter": 60.0, "groov
           "lift": 15.0, "end_margin": 4.0, "phases": PHASES}  # fmt: skip
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("part", "place"),
     [(GROOVED, ("steps", 0, "grooves", 0, "width")), (BARREL, ("groove_depth",)), (BARREL, ("end_margin",))],

@@ -157,7 +157,7 @@ def test_shifts_without_a_distance_of_their_own_mesh_where_there_is_room(
     assert refused.value.nearest is not None
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("kind", "own", "step"),
     [("rack_pair", (0.5, 0.3), -0.2), ("rack_pair", (1.0, 0.2), 0.1), ("internal_gear_pair", (0.8, 0.4), 0.3)],

@@ -167,6 +167,7 @@ def test_second_disc_lines_up_only_where_its_holes_do() -> None:
         assert all(c["met"] for c in checks["mates"][3]["conditions"]) is met, lobes
 
 
+@pytest.mark.heavy
 def test_a_second_disc_of_an_even_number_of_lobes_has_holes_of_its_own() -> None:
     """Ten lobes: the other disc stands half a lobe on, and so do its holes against its lobes."""
     ring = RING | {"number_of_pins": 11, "face_width": 20.0}

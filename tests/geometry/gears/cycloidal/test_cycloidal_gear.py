@@ -134,7 +134,7 @@ def test_contact_is_found_beside_the_cusps_too(gears: tuple[CycloidalGear, Cyclo
     assert np.abs(gaps).max() < 1e-9 * MODULE
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @EVERY_PAIR
 def test_gaps_of_a_pair_are_those_of_its_polygons(gears: tuple[CycloidalGear, CycloidalGear]) -> None:
     """An oracle without our search: outlines of many corners, set in place by shapely, at some drive angles."""

@@ -212,7 +212,7 @@ def _closed_gap(pair: ExternalPair, sense: int, shift: float) -> float:
     return float(found[np.isfinite(found)].min())
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(("z1", "z2", "shift"), [(4, 7, 1.0), (4, 7, 1.6), (5, 5, 0.8), (5, 5, 1.3), (4, 12, 1.4)])
 def test_corners_of_undercut_teeth_that_graze(z1: int, z2: int, shift: float) -> None:
     """Where tip passes tip the gap hardly changes as the second turns; polylines walk from the middle till they meet.

@@ -121,6 +121,7 @@ def test_another_gear_does_not_mesh() -> None:
     assert noncircular_contact(NoncircularPair(OVALS.first, other.second)).verdict is Verdict.OVERLAP
 
 
+@pytest.mark.heavy
 def test_equal_gears_mesh_by_their_numbers_of_teeth() -> None:
     for lobes, works, fails in some_of(((1, 21, 22), (2, 22, 24), (3, 33, 36))):
         shape = LobedEllipse(1.0, 0.1, lobes)

@@ -262,6 +262,7 @@ HAIRPIN = [
 ]  # fmt: skip
 
 
+@pytest.mark.heavy
 def test_a_cam_that_turns_between_samples_is_as_far_from_itself_as_it_is(tmp_path: Path) -> None:
     """Points of the outline lie on it; they were up to 0.78 mm off, from the nearest sample of another turn."""
     keys = {"kind": "cam", "follower": "pointed", "base_circle_radius": 12.0, "motion_table": [[*r] for r in HAIRPIN]}

@@ -212,7 +212,7 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path)
         (folder / "pinion.stl").write_bytes(mesh)
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     "keys", [{"face_width": 18.0}, {"face_width": 15.0}, {"face_width": 18.0, "tip_cone": "apex"}], ids=str
 )
@@ -255,6 +255,7 @@ def test_a_gear_beside_a_mate_of_metres_is_drawn_too() -> None:
     assert len(profile.period) == 6
 
 
+@pytest.mark.heavy
 def test_holes_run_from_the_front_to_the_back_of_the_rim(tmp_path: Path) -> None:
     """As cylinders that are taken out of it; files and the sheet are read back."""
     keys = {name: value for name, value in HOLED.items() if name != "holes"}

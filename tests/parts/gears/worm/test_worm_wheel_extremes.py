@@ -161,6 +161,7 @@ def test_a_flank_that_turns_back_below_the_tip_is_no_fillet_up_to_it() -> None:
     assert refused.value.code == "worm_wheel_undercut"
 
 
+@pytest.mark.heavy
 def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
     keys = {"form": "ZA", "number_of_starts": 2, "diameter_quotient": 4.0, "pressure_angle_deg": 25.0}
     keys |= {"module": 1.0, "number_of_teeth": 13, "hob_diameter_quotient": 4.609}
