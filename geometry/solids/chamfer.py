@@ -30,7 +30,7 @@ _OPENING_POWER = 4
 _OPENING_SHARE, _OPENING_STEPS = 1e-4, 14
 
 # so many depths of a chamfer: from a corner with a smaller radius edges run nearly as from a cusp
-_CUSP_DEPTHS = 4.0
+_CUSP_DEPTHS = 0.25
 
 # the shares of the depth, up to 1, at which a chamfer is cut: its wall, its loops of the whole boundary and of its end
 Pieces = Callable[[Wall, int, int], Sequence[float]]
