@@ -41,7 +41,7 @@ PARTS: dict[str, dict[str, Any]] = {
         "number_of_teeth": 20,
         "face_width": 4.0,
         "rounded_root": {},
-        "sector": {"teeth": 3, "blank_diameter": 48.0, "corner_radius": 0.8},
+        "sector": {"teeth": 3, "blank_diameter": 48.0, "corner_radius": 0.7},
     },
     "hexagon": {**GEAR, "number_of_teeth": 17, "bore": {"shape": "hexagon", "across_flats": 8.0, "corner_radius": 0.8}},
 }
