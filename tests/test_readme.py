@@ -17,6 +17,7 @@ from parts.scene.files import built_in_scenes
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text("utf-8")
+PACKAGES = ("geometry", "parts", "exporters")
 
 
 @pytest.mark.parametrize("name", [*KINDS, *MATES, *RECIPES])
@@ -32,6 +33,19 @@ def test_every_calculation_is_named(topic: str) -> None:
 def test_every_picture_is_there_and_shown() -> None:
     shown = set(re.findall(r"\]\(\.pictures/([\w.]+)\)", README))
     assert shown == {file.name for file in (ROOT / ".pictures").iterdir()}
+
+
+def unnamed_rooms(page: str) -> set[str]:
+    """Folders of code, the second ones below geometry too, which the table of the house does not name."""
+    house = page.partition("## The house")[2]
+    rooms = [*ROOT.glob("geometry/*/*/__init__.py")]
+    rooms += [file for package in PACKAGES for file in (ROOT / package).glob("*/__init__.py")]
+    return {file.parent.name for file in rooms if f"`{file.parent.name}`" not in house}
+
+
+def test_the_house_names_every_room() -> None:
+    assert not unnamed_rooms(README)
+    assert unnamed_rooms(README.replace("`worms`, ", "")) == {"worms"}
 
 
 def test_what_is_missing_is_installed_in_the_readme_s_words() -> None:
@@ -54,7 +68,7 @@ PLACES = re.compile(r"(?:geometry|parts|exporters|tests|\.ci|out)/[\w./*-]*")
 def words_of_the_code() -> frozenset[str]:
     """Every word of what runs, its keys and scenes among them."""
     found: set[str] = set()
-    for folder in ("geometry", "parts", "exporters", "tests"):
+    for folder in (*PACKAGES, "tests"):
         for file in (*(ROOT / folder).rglob("*.py"), *(ROOT / folder).rglob("*.toml")):
             if file != Path(__file__):
                 found |= set(re.findall(r"\w+", file.read_text("utf-8")))
