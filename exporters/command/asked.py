@@ -133,4 +133,4 @@ def check_free_place(options: Namespace) -> None:
     if options.out is not None:
         from exporters.formats.whole import check_free
 
-        check_free(options.out)
+        check_free(options.out, force=options.force)

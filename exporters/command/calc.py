@@ -22,7 +22,7 @@ def run(options: Namespace) -> int:
         return DONE
     form = options.format or form_of(options.out)
     try:
-        text = calculate(options.topic, options.words, form, options.language)
+        text = calculate(options.topic, options.words, form, options.language, force=options.force)
     except ReadError as error:
         print(f"higherpair: {error}", file=sys.stderr)
         return FAILED

@@ -99,6 +99,7 @@ def _place(told: Words) -> Callable[[str], Path]:
 def _page(command: Parser, told: Words) -> None:
     to_file = told.text("write to a file, in UTF-8 (default: to the terminal)")
     command.add_argument("--out", type=_place(told), metavar=_shown(told, "FILE"), help=to_file)
+    command.add_argument("--force", action="store_true", help=told.text("write over a file that is there already"))
 
 
 def _results(command: Parser, told: Words) -> None:

@@ -49,8 +49,10 @@ def keys_of_topic(topic: str) -> tuple[type[Struct], Sequence[tuple[str, str]]]:
     return keys, getattr(module, "OTHER_KINDS", ())
 
 
-def calculate(topic: str, words: Sequence[str], form: str, language: str | None) -> str:
+def calculate(topic: str, words: Sequence[str], form: str, language: str | None, *, force: bool = False) -> str:
     """The rendered calculation of a topic; ``words`` are at most one scene and any number of key=value.
+
+    ``force``: pictures and sheets may take the place of files.
 
     Raises
     ------
@@ -65,11 +67,11 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
     language = language or spoken
     for asked in (sheet.picture_file, sheet.paper_file):
         if asked is not None:
-            check_free(Path(asked))
+            check_free(Path(asked), force=force)
     if sheet.picture_file is not None and sheet.picture is not None:
         _write_picture(sheet.picture, Path(sheet.picture_file), told(language))
     if sheet.paper_file is not None and sheet.paper is not None:
-        _write_paper(sheet.paper(language), Path(sheet.paper_file), told(language).say(sheet.title), topic)
+        _write_paper(sheet.paper(language), Path(sheet.paper_file), told(language).say(sheet.title), topic, force=force)
     if form == "csv" and not sheet.tables:
         raise SceneError(PLACE, "--format", form, "no_tables", Nearest("json"))
     return render(sheet, form, language)
@@ -99,7 +101,7 @@ def _write_picture(picture: Picture, file: Path, words: Words) -> None:
             (folder / file.name).write_text(picture.svg(words), encoding="utf-8", newline="\n")
 
 
-def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str) -> None:
+def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str, *, force: bool) -> None:
     """Write sheets, all into one PDF, else into files with their numbers; each is read back and measured.
 
     Raises
@@ -125,7 +127,7 @@ def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str) 
             (file if k == 0 else file.with_suffix(f".{k + 1}{file.suffix}"), [page]) for k, page in enumerate(pages)
         ]
     for name, _ in parts:
-        check_free(name)
+        check_free(name, force=force)
     with beside(file) as folder:
         for name, shown in parts:
             write_sheets(folder / name.name, [page.canvas for page in shown], title)

@@ -9,18 +9,20 @@ from contextlib import contextmanager
 from pathlib import Path
 
 
-def check_free(file: Path) -> None:
-    """Refuse a file that exists already: what it holds may be somebody's work.
+def check_free(file: Path, *, force: bool = False) -> None:
+    """Refuse a file that exists already: what it holds may be somebody's work. ``force``: only what is no plain file.
 
     Raises
     ------
     SceneError
         It exists, or is a folder.
     """
-    if file.exists() or file.is_symlink():
+    is_plain = file.is_file() and not file.is_symlink()
+    if (file.exists() or file.is_symlink()) and not (force and is_plain):
         from parts.base.refusal import SceneError
 
-        raise SceneError(str(file), "", None, "folder_for_file" if file.is_dir() else "file_exists")
+        code = "folder_for_file" if file.is_dir() else "file_exists" if is_plain else "no_plain_file"
+        raise SceneError(str(file), "", None, code)
 
 
 @contextmanager

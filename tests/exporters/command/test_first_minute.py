@@ -161,22 +161,31 @@ def test_no_page_is_written_over_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], command: tuple[str, ...]
 ) -> None:
     """Nor through a link, or into a device."""
-    file, link = tmp_path / "mine.toml", tmp_path / "link.md"
+    file, link = tmp_path / "mine.txt", tmp_path / "link.md"
     file.write_text("mine", encoding="utf-8")
     link.symlink_to(tmp_path / "nothing")
     for place in (file, link, Path(os.devnull)):
         assert run(*command, "--out", place) == 2
         assert "exists already" in capsys.readouterr().err
+        if place != file:
+            assert run(*command, "--force", "--out", place) == 2
+            assert "exists already, and is a link or a device" in capsys.readouterr().err
     assert run(*command, "--out", tmp_path) == 2
     assert "is a folder; give the name of a file in it" in capsys.readouterr().err
     assert file.read_text(encoding="utf-8") == "mine"
     assert link.is_symlink()
+    assert run(*command, "--force", "--out", file) == 0
+    written = capsys.readouterr().out
+    assert str(file) in written
+    page = file.read_text(encoding="utf-8")
+    assert run(*command) == 0
+    assert page == capsys.readouterr().out
     missing = tmp_path / "none" / "a.md"
     assert run(*command, "--out", missing) == 2
     assert f"{missing}: No such file" in capsys.readouterr().err
     assert run(*command, "--language", "uk", "--out", missing) == 2
     assert f"{missing}: немає такого файлу чи теки; " in capsys.readouterr().err
-    assert {p.name for p in tmp_path.iterdir()} == {"mine.toml", "link.md"}
+    assert {p.name for p in tmp_path.iterdir()} == {"mine.txt", "link.md"}
 
 
 def test_the_help_names_every_topic(capsys: pytest.CaptureFixture[str]) -> None:

@@ -258,3 +258,6 @@ def test_a_sheet_that_is_not_what_it_should_be_is_not_left(
         told = capsys.readouterr().err
         assert f"{asked.as_posix()}: exists already" in told
     assert [one.read_text("utf-8") for one in tmp_path.iterdir()] == ["mine"]
+    for key in ("picture", "sheet"):
+        assert main(["calc", "lever", "code=1071", "--force", f"{key}={asked.as_posix()}"]) == 0
+        assert "<svg" in asked.read_text("utf-8")
