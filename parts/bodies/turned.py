@@ -698,9 +698,10 @@ def _flats(keys: ShaftSpec, number: int, z: float) -> Iterator[Pocket]:
         if _radius(other) == radius:
             if other.flats and (other.flats.length in (None, other.length) or (other.flats.end == "upper") == (k < 0)):
                 raise ParameterError(f"steps[{number + k}].flats", None, "flats_meet")
-        elif not (_radius(other) + other.fillet < floor or _radius(other) - other.chamfer > radius):
-            told = {"floor": 2 * floor, "diameter": step.diameter}
-            raise ParameterError(f"steps[{number + k}].diameter", other.diameter, "ends_amid_flats", **told)
+        elif floor <= (inner := _radius(other) + other.fillet) < radius:
+            given = getattr(flats, flats.size)
+            cure = least_of(flats.told(step.diameter, inner), given)
+            raise ParameterError(f"{name}.{flats.size}", given, "flat_within_step_beside", cure, diameter=2 * inner)
     width = 2 * math.sqrt((radius - floor) * (radius + floor))
     for turn in range(flats.count):
         angle = math.radians(flats.angle_deg) + math.pi * turn

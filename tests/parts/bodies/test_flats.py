@@ -151,7 +151,8 @@ REFUSED: dict[str, tuple[Keys, list[Keys], str, str]] = {
     "from a fillet": (
         two(length=5.0, end="upper") | {"fillet": 1.0}, [step(20.0, 5.0)], "steps[1].fillet = 1.0", "0 mm works"
     ),
-    "beside": (two(), [step(9.0, 5.0)], "steps[2].diameter = 9.0", "4 mm across"),
+    "beside": (two(), [step(9.0, 5.0)], "steps[1].flats.across_flats = 4.0", "at least 9.000009 mm"),
+    "beside a fillet": (one(6.0), [step(4.0, 5.0, fillet=0.5)], "steps[1].flats.flat = 6.0", "at least 7.500008 mm"),
     "in a row": (two(), [step(10.0, 5.0, **one(9.0))], "steps[2].flats", "end in one plane"),
     "all round": (two(), [step(10.0, 5.0), step(10.0, 20.0, **two(angle_deg=0.0))], "steps", "free"),
     # as it was: wholly in what the flat takes away, and yet a solid
