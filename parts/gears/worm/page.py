@@ -67,6 +67,8 @@ _OF_DRIVE = (
     "outer_diameter", "profile_shift_coefficient", "working_centre_distance", "hob_rounding_coefficient",
     "hob_diameter_quotient", "wheel_thinning", *_ERRORS,
 )  # fmt: skip
+# what the strength of the wheel takes, beside the form of its teeth
+_OF_STRENGTH = ("width_factor", "speed_factor", "tensile_strength", "bending_life_factor", "contact_life_factor")
 # keys each of which tells what the other does
 _INSTEAD = (
     ("lead_angle_deg", "diameter_quotient"),
@@ -175,7 +177,12 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
             if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
+        for key in _OF_STRENGTH:
+            if key in table and asked.form_factor is None:
+                raise ParameterError(key, table[key], "needs_other", REMOVED, other="form_factor")
         keys, worm, driving = _settled(asked)
+        if asked.form_factor is not None and driving is None and asked.wheel_torque is None:
+            raise ParameterError("form_factor", asked.form_factor, "needs_other", REMOVED, other="torque")
     except ParameterError as error:
         raise refusal(TOPIC, in_degrees(error, asked), keys=asked) from error
     drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)

@@ -71,7 +71,7 @@ Pairs = dict[str, tuple[type[Struct], Callable[[dict[str, Any]], Sheet]]]
 
 
 class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
-    """Keys of the topic. A key of a gear without first. or second. before it goes to both."""
+    """Keys of a pair. A key of a gear without first. or second. before it goes to both."""
 
     first: SpurGearSpec
     second: SpurGearSpec
@@ -82,6 +82,11 @@ class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     side_clearance_class: Annotated[Literal["H", "E", "D", "C", "B", "A"], Meta(description="GOST 1643")] | None = None
     tip_shortening_coefficient: Annotated[float, in_modules("given tip shortening", least=0, most=3)] | None = None
     shortened_tips: ShortenedTips = False
+
+
+class DrawnPairKeys(PairKeys, kw_only=True):
+    """Keys of the topic: with what is measured off a drawing."""
+
     measured_arc_of_action: Annotated[float, mm("arc dd' measured off a drawing", above=0, most=1e6)] | None = None
     measured_working_pitch: Annotated[float, mm("p_w measured off the same drawing", above=0, most=1e6)] | None = None
 
@@ -136,7 +141,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 def external_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of an external pair."""
-    return external_page(table, PairKeys, TOPIC, _page)
+    return external_page(table, DrawnPairKeys, TOPIC, _page)
 
 
 def external_page(table: dict[str, Any], kind: type[PairKeys], topic: str, page_of: Callable[[Asked], Sheet]) -> Sheet:
@@ -344,8 +349,8 @@ def _page(asked: Asked) -> Sheet:
     for name, other in (tuple(measured), tuple(measured)[::-1]):
         if measured[name] is not None and measured[other] is None:
             raise ParameterError(name, measured[name], "needs_other", REMOVED, other=other)
-    if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
-        measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
+    if None not in measured.values():
+        measured_steps(page, pair, *measured.values())
     pair_rolls(page, pair)
     sliding_steps(page, pair, asked.helical, keys.speed_rpm)
     force_steps(page, pair, asked.helical, keys)
@@ -458,7 +463,7 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
 
 # the kinds of pairs that have a sheet: their keys, and what makes it of a table of them
 PAIRS: Pairs = {
-    "external_gear_pair": (PairKeys, external_sheet),
+    "external_gear_pair": (DrawnPairKeys, external_sheet),
     "internal_gear_pair": (InternalKeys, internal_sheet),
     "rack_pair": (RackKeys, rack_sheet),
     "crossed_helical_pair": (CrossedKeys, crossed_sheet),

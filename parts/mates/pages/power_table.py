@@ -15,6 +15,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.kinematics.two_disk import Orientation, TwoDisk
 from geometry.kinematics.two_disk_path import Piece, followed
+from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.keys.base import degrees, mm
 from parts.mates.pages.contour_marks import checked_picture
@@ -36,6 +37,7 @@ _Place = Annotated[float, mm("coordinate", least=-_MOST, most=_MOST)]
 
 _PAIR_TEETH = Meta(description="teeth of disk 3's pinion and of the ring")
 _WORM_RATIOS = Meta(description="teeth of the worm wheels for one start")
+_WHEELS = (36, 36)
 _ORIENTATION_TEETH = Meta(description="teeth of the wheels 6 (and 7) and 8 of the thesis")
 
 
@@ -46,7 +48,7 @@ class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     pair_teeth: Annotated[tuple[_Teeth, _Teeth], _PAIR_TEETH] = (96, 144)
     worm_ratios: Annotated[tuple[_Teeth, _Teeth], _WORM_RATIOS] = (128, 106)
     orientation: Annotated[Orientation, Meta(description="what turns the platform")] = "cranks"
-    orientation_teeth: Annotated[tuple[_Teeth, _Teeth], _ORIENTATION_TEETH] = (36, 36)
+    orientation_teeth: Annotated[tuple[_Teeth, _Teeth], _ORIENTATION_TEETH] = _WHEELS
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -55,12 +57,15 @@ class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
 
     @property
     def table(self) -> TwoDisk:
-        """The mechanism; its ring is larger than the pinion."""
+        """The mechanism; its ring is larger than the pinion, and the thesis alone turns the platform by wheels."""
+        if self.orientation != "thesis" and self.orientation_teeth != _WHEELS:
+            raise ParameterError("orientation_teeth", list(self.orientation_teeth), "for_thesis_only", REMOVED)
         if self.pair_teeth[0] >= self.pair_teeth[1]:
             raise ParameterError("pair_teeth", list(self.pair_teeth), "ring_as_its_wheel")
         return TwoDisk(arms=self.lengths, teeth=self.pair_teeth, worm_ratios=self.worm_ratios)
 
 
+_TOLERANCE = 0.01
 # all but a whole turn has less
 _Bulge = Annotated[float, Meta(ge=-1e6, le=1e6)]
 _PATH = Meta(description="a DXF file of lines, arcs and polylines, or pieces x1, y1, x2, y2, bulge")
@@ -72,7 +77,7 @@ class PowerTableKeys(TwoDiskKeys, kw_only=True):
     x: Annotated[_Place | list[_Place], mm("x of a point, or of several")] | None = None
     y: Annotated[_Place | list[_Place], mm("y of a point, or of several")] | None = None
     path: Annotated[list[tuple[_Place, _Place, _Place, _Place, _Bulge]], _PATH] | None = None
-    tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = 0.01
+    tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = _TOLERANCE
     elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] | None = None
     picture: Annotated[str, Meta(description="SVG file of the scheme to write")] | None = None
     start_deg: Annotated[float, degrees("delta before the path begins", least=-36_000, most=36_000)] | None = None
@@ -129,8 +134,9 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     if keys.x is None or keys.y is None:
         missing = "x" if keys.x is None else "y"
         raise ParameterError(missing, None, "missing_key", None, what=message("x and y of a point, or path=FILE"))
-    if keys.elbow is not None:
-        raise ParameterError("elbow", keys.elbow, "needs_other", None, other="path")
+    for name, usual in (("elbow", None), ("tolerance", _TOLERANCE)):
+        if (given_too := getattr(keys, name)) != usual:
+            raise ParameterError(name, given_too, "needs_other", None, other="path")
     x, y = np.atleast_1d(keys.x), np.atleast_1d(keys.y)
     if len(x) != len(y) or not len(x):
         raise ParameterError("y", keys.y, "as_many_as_x")

@@ -1016,6 +1016,21 @@ def test_balls_that_touch_no_flank_of_a_worm_are_refused(ball: str, cure: str) -
     assert "over_balls" in json.loads(calculate("worm", (*words, f"ball_diameter={near}"), "json", "en"))["values"]
 
 
+@pytest.mark.parametrize(
+    ("typed", "other"),
+    [
+        (("torque=5", "width_factor=1.2"), "form_factor"),
+        (("torque=5", "tensile_strength=150"), "form_factor"),
+        (("torque=5", "contact_life_factor=1"), "form_factor"),
+        (("form_factor=1.3",), "torque"),
+    ],
+)
+def test_what_the_strength_of_a_worm_wheel_takes_is_not_taken_in_vain(typed: tuple[str, ...], other: str) -> None:
+    key = typed[-1].partition("=")[0]
+    with pytest.raises(SceneError, match=f"worm.{key} = .*: needs {other} too"):
+        calculate("worm", ("module=4", "number_of_teeth=40", *typed), "text", None)
+
+
 def test_a_worm_is_told_by_its_lead_angle_as_in_scenes(capsys: pytest.CaptureFixture[str]) -> None:
     lead = math.degrees(math.atan2(2, 8))
     words = "worm module=2 number_of_starts=2 number_of_teeth=30"

@@ -298,6 +298,7 @@ def test_what_is_remarked(typed: tuple[str, ...], note: str) -> None:
         (("working_centre_distance=120", "profile_shift_coefficient=0"), "strength.working_centre_distance"),
         (("first.pressure_angle_deg=25",), "strength.second.pressure_angle_deg"),
         (("first.hardness=250",), "strength.first.hardness"),
+        (("measured_arc_of_action=9", "measured_working_pitch=9"), "strength.measured_arc_of_action"),
         (("material_group=V", GOST), "strength.material_group"),
         (("first.profile_shift_coefficient=-9",), "strength.first.profile_shift_coefficient"),
     ],
