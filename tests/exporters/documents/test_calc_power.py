@@ -89,7 +89,7 @@ def test_what_is_refused() -> None:
         (("x=[1,2]", "y=1"), "as many values as x"),
         (("x=50", "y=80", "elbow=-1"), "elbow = -1: needs path too"),
         (("x=50", "y=80", "tolerance=0.5"), "tolerance = 0.5: needs path too"),
-        (("x=50", "y=80", "orientation_teeth=[35,36]"), "is for orientation = \"thesis\" only"),
+        (("x=50", "y=80", "orientation_teeth=[35,36]"), 'is for orientation = "thesis" only'),
         (("path=[[0,0,9,9,0]]", "y=80"), "y = 80.0: is given together with path"),
         (("path=nothing.dxf",), "no such file"),
         (("path=[[0,0,0,0,1]]",), "begins where it ends"),
