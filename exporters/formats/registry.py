@@ -6,10 +6,12 @@ their kind is written; readers (exporters/formats/reading.py) when one is read.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, cast
 
 import numpy as np
 from msgspec import structs
@@ -48,8 +50,9 @@ Places = Sequence[tuple[str, str, Placement3, str | None]]
 _MOST_EDGES = 4_000_000
 # where slices and chords are counted, so far above their estimate a tolerance is tried, and sought so near
 _ABOVE, _NEAR = 1.05, 0.05
-# how often the tolerance that digits hold is tried
-_DOUBLINGS = 6
+# how often the tolerance that digits hold is tried; at how many of it triangles of bent faces are counted, and by how
+# much more of them there may be, which come in steps
+_DOUBLINGS, _COARSE, _SPARE = 6, 64.0, 1.25
 # of these so many times fewer: writing and reading back takes 1.1 kB of memory an edge of an STL, 2.8 of a 3MF's text
 _HEAVIER = {"stl": 2, "3mf": 4}
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
@@ -161,15 +164,36 @@ def mesh_tolerance(contents: Sequence[tuple[Content, float]], least: float, give
 
     Not all that digits hold is made: of some the file would need too many edges.
     """
+    faced = [(content, share) for content, share in contents if content.body.is_faced]
+    if math.isinf(least := max([least, *(_carried(content) / share for content, share in faced)])):
+        return None
 
     def fits(tolerance: float) -> bool:
-        return all(
-            shape_of(replace(content, export=structs.replace(content.export, tolerance=share * tolerance)))
-            for content, share in contents
-        )
+        return all(content.body.is_faced or _fits(content, share * tolerance) for content, share in contents)
 
     ends = [rounded(least * 2.0**k, up=True, digits=6) for k in range(_DOUBLINGS)]
     return nearest(fits, given, ends, digits=6, share=1.0)
+
+
+def _other(content: Content, tolerance: float) -> Shape:
+    """The boundaries at another tolerance, mm."""
+    return shape_of(replace(content, export=structs.replace(content.export, tolerance=tolerance)))
+
+
+def _fits(content: Content, tolerance: float) -> bool:
+    return bool(_other(content, tolerance))
+
+
+def _carried(content: Content) -> float:
+    """A tolerance that the mesh of a body told by its faces can keep, mm, by the triangles of a coarse one.
+
+    On surfaces bent both ways, of which there are most, their number goes by 1 / tolerance; on others by less.
+    """
+    for coarse in (least_tolerance(content) * _COARSE**k for k in (1, 2)):
+        with suppress(ParameterError):
+            triangles = len(cast("Chords", _other(content, coarse))[0].geometry)
+            return coarse * _SPARE * triangles / _most_edges(content)
+    return math.inf
 
 
 def declared_error(content: Content, made: Shape) -> tuple[float, str]:
@@ -207,25 +231,36 @@ def _chords(content: Content, tolerance: float) -> Chords:
     if content.body.is_faced:
         # one mesh for every format: it takes its time
         tolerance = content.tolerance - _TEXT_ROUNDINGS * _mesh_rounding(content)
-    made = mesh_outlines(content.body, tolerance, 64 * rounding)
+    try:
+        made = mesh_outlines(content.body, tolerance, 64 * rounding)
+    except ParameterError as refusal:
+        raise refusal.told_of("tolerance", content.tolerance, _coarser(content)) from None
     _check_count(content, count_edges(content.body, made), 2)
     return made
 
 
+def _most_edges(content: Content) -> float:
+    return _MOST_EDGES / _HEAVIER.get(content.kind.name, 1)
+
+
+def _coarser(content: Content) -> Callable[[], Nearest | None]:
+    """How a coarser mesh is found."""
+    return partial(mesh_tolerance, [(content, 1.0)], _ABOVE * content.tolerance, content.tolerance)
+
+
 def _check_count(content: Content, edges: int, order: int) -> None:
     """Refuse more edges than a file can carry, whose number goes by the tolerance's root of an ``order``."""
-    most = _MOST_EDGES / _HEAVIER.get(content.kind.name, 1)
-    if edges > most:
+    if edges > (most := _most_edges(content)):
         far = rounded(content.tolerance * (edges / most) ** order, up=True, digits=6)
         works: Nearest | Callable[[], Nearest | None] = Nearest(far)
-        if content.kind.is_solid and not content.body.is_faced and content.body.twisted_profiles():
-            # slices and chords are fewer at once
-
-            def fits(tolerance: float) -> bool:
-                return bool(shape_of(replace(content, export=structs.replace(content.export, tolerance=tolerance))))
-
-            near = content.tolerance * edges / most
-            works = partial(nearest, fits, content.tolerance, [_ABOVE * near, far], digits=8, share=_NEAR)
+        if content.kind.is_solid:
+            body = content.body
+            if body.is_faced:
+                works = _coarser(content)
+            elif body.twisted_profiles():
+                # slices and chords are fewer at once
+                ends = [_ABOVE * content.tolerance * edges / most, far]
+                works = partial(nearest, partial(_fits, content), content.tolerance, ends, digits=8, share=_NEAR)
         raise ParameterError("tolerance", content.tolerance, "too_many_edges", works, edges=edges)
 
 

@@ -14,7 +14,7 @@ from types import UnionType
 
 import numpy as np
 
-from geometry.base.errors import ConvergenceError, ThinWallError
+from geometry.base.errors import ConvergenceError, ParameterError, ThinWallError
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Flags, Real
@@ -48,7 +48,8 @@ _SAFE, _LEAST_SHARE = 0.9, 0.3
 _LESS, _HALF, _NO_BETTER = 0.25, 0.5, 0.99
 # what splines may take of it
 _SPLINES = 0.1
-_MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
+# more triangles than a file of any format carries
+_MOST_ROUNDS, _MOST_TRIANGLES = 10, 2_000_000
 # arcs are cut into chords no longer than this, rad; samples for the bend of splines, each span
 _WIDEST, _INNER = math.pi / 4, np.linspace(0, 1, 5)
 # how near to the truth a proof shall be, part of the tolerance
@@ -88,8 +89,10 @@ def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> Fac
 
     Raises
     ------
-    ConvergenceError
+    ParameterError
         The tolerance asks for more triangles than a file can carry.
+    ConvergenceError
+        It is not kept.
     ThinWallError
         The chords of a face's edges touch or cross.
     """
@@ -213,8 +216,7 @@ class _Mesher:
     def _keep(self, triangles: Triangles, error: float, bound: Bound) -> None:
         self.triangles.append(triangles)
         self.count += len(triangles)
-        if self.count > _MOST_TRIANGLES:
-            raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
+        _check_count(self.tolerance, self.count)
         self.error = max(self.error, error)
         if bound == "sampled" or (self.bound == "exact" and error > 0):
             self.bound = bound
@@ -437,7 +439,7 @@ class _Mesher:
 
         Raises
         ------
-        ConvergenceError
+        ParameterError
             There would be too many.
         """
         which = _templates(patch.poles)
@@ -447,8 +449,7 @@ class _Mesher:
         along, across = ((grid.sides[k][0][1:-1], 1 - grid.sides[k + 2][0][-2:0:-1]) for k in (0, 1))
         for _ in range(_FINER):
             t, rows = bends.rows(sag)
-            if self.count + 2 * len(places) * sum(len(row) for row in rows) > _MOST_TRIANGLES:
-                raise ConvergenceError("mesh for the tolerance", self.tolerance, self.count)
+            _check_count(self.tolerance, self.count + 2 * len(places) * sum(len(row) for row in rows))
             # where rows of unlike lengths fold, all are as fine as the finest of them and of both sides, then as many
             # as the sides they run between have chords; where that is no better, fewer do
             levels = max((t, *across), key=len)
@@ -551,10 +552,14 @@ def _shares(solid: Solid, edges: Edges, sag: float, *, even: bool) -> Real:
     whole = max(1.0, math.ceil(math.sqrt(float(most.max()) / (8 * sag))))
     if whole < counts.sum() and np.unique(curve.knots, return_counts=True)[1][1:-1].max(initial=0) < curve.degree:
         breaks, counts = np.array([0.0, 1.0]), np.array([int(whole)])
-    if counts.sum() > _MOST_TRIANGLES:
-        raise ConvergenceError("mesh for the tolerance", sag, int(counts.sum()))
+    _check_count(sag, int(counts.sum()))
     pieces = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(breaks, breaks[1:], counts, strict=False)]
     return np.append(np.concatenate(pieces), 1.0)
+
+
+def _check_count(tolerance: float, triangles: int) -> None:
+    if triangles > _MOST_TRIANGLES:
+        raise ParameterError("tolerance", tolerance, "too_many_edges", edges=triangles)
 
 
 def _uv(side: Side) -> Real:

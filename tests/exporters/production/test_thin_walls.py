@@ -18,6 +18,7 @@ from geometry.base.tolerance import LEAST_SEGMENT_MM
 from geometry.plane.contour import Approximation, Contour
 from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_dict
+from parts.solids.face_mesh import FaceMesh
 
 # a disc of 40 mm with a hole 0.11 mm from its edge, where chords of both lie farthest within
 TURN = math.radians(15)
@@ -114,6 +115,26 @@ def test_what_is_offered_for_more_than_digits_hold_is_made(tmp_path: Path, monke
     assert found.nearest is not None
     (job,) = planned(gear, format="3mf", tolerance=found.nearest.value).jobs
     assert shape_of(job)
+
+
+@pytest.mark.parametrize("form", ["stl", "3mf"])
+def test_what_is_offered_for_too_many_triangles_of_bent_faces_is_made(
+    form: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was sought by whole meshes, 11 s and 660 MB for a spiral gear, and where digits held nothing was offered."""
+    gear = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 12, "mate_number_of_teeth": 24,
+            "spiral_angle_deg": 35.0, "face_width": 6.0}  # fmt: skip
+    most = 100_000
+    monkeypatch.setattr("exporters.formats.registry._MOST_EDGES", {"stl": 2, "3mf": 4}[form] * most)
+    monkeypatch.setattr("parts.solids.face_mesh._MOST_TRIANGLES", most)
+    for tolerance, code in ((1e-7, "finer_than_mesh_digits"), (1e-4, "too_many_edges")):
+        found = refused(gear, tmp_path, format=form, tolerance=tolerance)
+        assert (found.key, found.code) == ("exports[1].tolerance", code)
+        assert found.nearest is not None
+        (job,) = planned(gear, format=form, tolerance=found.nearest.value).jobs
+        (mesh,) = cast("tuple[FaceMesh]", shape_of(job))
+        assert mesh.max_error <= found.nearest.value
+        assert 0.4 * most < len(mesh.geometry) <= most
 
 
 @pytest.mark.parametrize("more", [{}, {"helix_angle_deg": 25.0}, {"helix_angle_deg": 25.0, "bore_diameter": 5.0}])
