@@ -5,10 +5,12 @@ The annotations are the schema: validation, error texts and ``higherpair new`` a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Annotated, Any
 
 from msgspec import Meta
+from msgspec.structs import fields
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.tolerance import LEAST_LENGTH
@@ -73,6 +75,20 @@ BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=MOST_L
 def either(key: str, value: object, other: str, without: float | None = None) -> ParameterError:
     """A refusal of two keys that exclude each other; the refused one works as ``without``, None: left out."""
     return ParameterError(key, value, "either_key", Nearest(without), one=other, other=key.rpartition(".")[2])
+
+
+def check_not_in_vain(keys: Any, names: Sequence[str], other: str) -> None:
+    """Refuse those of some keys that are not as by default: they act only with another one, which is not given.
+
+    Raises
+    ------
+    ParameterError
+        Of the first such key.
+    """
+    usual = {field.name: field.default for field in fields(keys)}
+    for name in names:
+        if (value := getattr(keys, name)) != usual[name]:
+            raise ParameterError(name, value, "needs_other", Nearest(None), other=other)
 
 
 class MadeKeys(MaterialKeys, kw_only=True):

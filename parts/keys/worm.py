@@ -12,7 +12,7 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import kept, nearest
-from parts.keys.base import degrees, either, in_modules, mm
+from parts.keys.base import check_not_in_vain, degrees, either, in_modules, mm
 
 if TYPE_CHECKING:
     from geometry.gears.worms.worm import Worm
@@ -261,6 +261,8 @@ def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0
     """
     from geometry.gears.worms.worm import Worm
 
+    if keys.form != "ZK1":
+        check_not_in_vain(keys, ("grinding_wheel_diameter",), 'form = "ZK1"')
     return Worm(
         keys.module,
         keys.number_of_starts,

@@ -12,7 +12,7 @@ from geometry.gears.teeth.identified import ANGLES, FITS, Match, matches, pin_ce
 from geometry.gears.teeth.module_rows import INCH
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.texts import N_, message
-from parts.keys.base import degrees, mm
+from parts.keys.base import check_not_in_vain, degrees, mm
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table, table_of
 
@@ -77,6 +77,7 @@ def _by_spans(page: Sheet, keys: IdentifyKeys) -> Sheet:
     if spanned >= keys.number_of_teeth:
         most = Nearest(keys.number_of_teeth - 1, "at_most")
         raise ParameterError("teeth_spanned", spanned, "span_beyond_teeth", most, teeth=keys.number_of_teeth)
+    check_not_in_vain(keys, ("pin_diameter",), "over_pins")
     angles = ANGLES if keys.pressure_angle_deg is None else (keys.pressure_angle_deg,)
     found = matches(pitch, [math.radians(a) for a in angles], keys.module)
     match = found[0]

@@ -25,7 +25,7 @@ from parts.base.refusal import REMOVED, SceneError, explained
 from parts.base.texts import N_, Told
 from parts.gears.worm.part import WormSpec, told_worm
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
-from parts.keys.base import mm, size
+from parts.keys.base import check_not_in_vain, mm, size
 from parts.keys.worm import (
     Addendum,
     AngleError,
@@ -177,12 +177,11 @@ def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
             if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
-        for key in _OF_STRENGTH:
-            if key in table and asked.form_factor is None:
-                raise ParameterError(key, table[key], "needs_other", REMOVED, other="form_factor")
+        if asked.form_factor is None:
+            check_not_in_vain(asked, _OF_STRENGTH, "form_factor")
         keys, worm, driving = _settled(asked)
-        if asked.form_factor is not None and driving is None and asked.wheel_torque is None:
-            raise ParameterError("form_factor", asked.form_factor, "needs_other", REMOVED, other="torque")
+        if driving is None and asked.wheel_torque is None:
+            check_not_in_vain(asked, ("form_factor",), "torque")
     except ParameterError as error:
         raise refusal(TOPIC, in_degrees(error, asked), keys=asked) from error
     drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)

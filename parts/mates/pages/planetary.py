@@ -30,7 +30,7 @@ from geometry.gears.shifts.external import Requirements
 from geometry.gears.shifts.internal_shifts import InternalState
 from parts.base.texts import N_, Message, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
-from parts.keys.base import degrees, in_modules, mm
+from parts.keys.base import check_not_in_vain, degrees, in_modules, mm
 from parts.keys.cutter import RackName
 from parts.keys.helix import HelixAngle
 from parts.pages.inputs import calculation, exact
@@ -56,6 +56,10 @@ _MOST_TEETH_OFF = 3
 _TEETH = Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3")
 _SPACING = Meta(description="satellites equally spaced, or as equally as alike ones can be")
 _TEETH_OFF = Meta(ge=0, le=_MOST_TEETH_OFF, description="teeth that coaxiality may be off, made up by shifts")
+
+
+# what sets are sought by, not what one is judged by
+_OF_SEARCH = ("ratio_tolerance_percent", "least_teeth", "most_teeth", "largest_diameter", "teeth_off", "rows")
 
 
 class PlanetaryKeys(Struct, forbid_unknown_fields=True):
@@ -127,6 +131,7 @@ class _Page:
             raise ParameterError("ratio", keys.ratio, code, other="teeth")
         equal = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
         if keys.teeth is not None:
+            check_not_in_vain(keys, _OF_SEARCH, "ratio")
             one = self._given(keys.teeth)
             places = self._assembled(one) if self._coaxial_enough(one) else equal
             return partial(self._of_one, one, places)

@@ -17,7 +17,7 @@ from geometry.kinematics.two_disk import Orientation, TwoDisk
 from geometry.kinematics.two_disk_path import Piece, followed
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
-from parts.keys.base import degrees, mm
+from parts.keys.base import check_not_in_vain, degrees, mm
 from parts.mates.pages.contour_marks import checked_picture
 from parts.pages.inputs import calculation
 from parts.pages.misprints import printed_for_delta
@@ -65,7 +65,6 @@ class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
         return TwoDisk(arms=self.lengths, teeth=self.pair_teeth, worm_ratios=self.worm_ratios)
 
 
-_TOLERANCE = 0.01
 # all but a whole turn has less
 _Bulge = Annotated[float, Meta(ge=-1e6, le=1e6)]
 _PATH = Meta(description="a DXF file of lines, arcs and polylines, or pieces x1, y1, x2, y2, bulge")
@@ -77,7 +76,7 @@ class PowerTableKeys(TwoDiskKeys, kw_only=True):
     x: Annotated[_Place | list[_Place], mm("x of a point, or of several")] | None = None
     y: Annotated[_Place | list[_Place], mm("y of a point, or of several")] | None = None
     path: Annotated[list[tuple[_Place, _Place, _Place, _Place, _Bulge]], _PATH] | None = None
-    tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = _TOLERANCE
+    tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = 0.01
     elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] | None = None
     picture: Annotated[str, Meta(description="SVG file of the scheme to write")] | None = None
     start_deg: Annotated[float, degrees("delta before the path begins", least=-36_000, most=36_000)] | None = None
@@ -134,9 +133,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     if keys.x is None or keys.y is None:
         missing = "x" if keys.x is None else "y"
         raise ParameterError(missing, None, "missing_key", None, what=message("x and y of a point, or path=FILE"))
-    for name, usual in (("elbow", None), ("tolerance", _TOLERANCE)):
-        if (given_too := getattr(keys, name)) != usual:
-            raise ParameterError(name, given_too, "needs_other", None, other="path")
+    check_not_in_vain(keys, ("elbow", "tolerance"), "path")
     x, y = np.atleast_1d(keys.x), np.atleast_1d(keys.y)
     if len(x) != len(y) or not len(x):
         raise ParameterError("y", keys.y, "as_many_as_x")

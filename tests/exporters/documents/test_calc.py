@@ -1021,7 +1021,7 @@ def test_balls_that_touch_no_flank_of_a_worm_are_refused(ball: str, cure: str) -
     [
         (("torque=5", "width_factor=1.2"), "form_factor"),
         (("torque=5", "tensile_strength=150"), "form_factor"),
-        (("torque=5", "contact_life_factor=1"), "form_factor"),
+        (("torque=5", "contact_life_factor=0.9"), "form_factor"),
         (("form_factor=1.3",), "torque"),
     ],
 )

@@ -136,8 +136,9 @@ def test_what_is_known_decides_and_what_fits_nothing_is_told(capsys: pytest.Capt
         ({"next_span": 32.0}, "identify.next_span = 32.0: must be more than the span over one tooth less, 32.83 mm"),
         ({"teeth_spanned": 24}, "at most 23 works"),
         ({"tip_diameter": 79.0}, "measure over fewer teeth"),
+        ({"pin_diameter": 5.0}, "identify.pin_diameter = 5.0: needs over_pins too"),
     ],
-    ids=["next", "many", "beyond"],
+    ids=["next", "many", "beyond", "pin"],
 )
 def test_readings_that_cannot_be_are_told(
     capsys: pytest.CaptureFixture[str], changed: dict[str, float], told: str

@@ -272,6 +272,7 @@ REFUSED: dict[str, tuple[Keys, Keys | None, str, str]] = {
                               "tail_length", "tail_reaches_teeth"),
     "tail whose middle hits": (WHEEL, PAWL | {"tail_length": 30.0, "tail_angle_deg": -50.0, "tail_width": 3.0},
                                "tail_length", "tail_reaches_teeth"),
+    "tail without a length": (WHEEL, PAWL | {"tail_width": 5.0}, "tail_width", "needs_other"),
     "tail within the boss": (WHEEL, PAWL | {"tail_length": 0.5}, "tail_length", "no_whole_outline"),
     "four teeth of a ring": (RING | {"number_of_teeth": 4}, None, "number_of_teeth", "back_does_not_fall"),
     "short": (WHEEL | {"number_of_teeth": 20, "tip_land": 2.0},
@@ -447,7 +448,7 @@ def test_a_tail_adds_to_the_pawl(angle: float) -> None:
     """
     found = []
     for tail in (0.0, 20.0):
-        own = PAWL | {"tail_length": tail, "tail_width": 5.0} | ({"tail_angle_deg": angle} if tail else {})
+        own = PAWL | ({"tail_length": tail, "tail_width": 5.0, "tail_angle_deg": angle} if tail else {})
         made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "pawl": own}}, "t", "t"), "t")
         found.append(body_moments(made["pawl"].body(0.0)).volume / 10.0)
     assert 0.5 * 15 * 6 < found[1] - found[0] < 25 * 7.5

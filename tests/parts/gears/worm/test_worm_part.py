@@ -220,6 +220,7 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ),
         # before: without effect
         ({"run_out_deg": 60.0}, "run_out_deg"),
+        ({"grinding_wheel_diameter": 200.0}, "grinding_wheel_diameter"),
         ({"thread_ends": "blunt", "thread_length": 50.0, "end_angle_deg": 20.0}, "end_angle_deg"),
         ({"bore_diameter": 40.0}, "bore_diameter"),
         ({"diameter_quotient": 12.0, "lead_angle_deg": 10.0}, "diameter_quotient"),
