@@ -91,18 +91,18 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
 
     extents = [extent(view.drawn.strokes) for view in views]
 
-    def greatest(canvas: Canvas) -> float:
-        """The greatest scale at which both views stand in a field."""
-        most = max(canvas.width, canvas.height) / max(map(max, extents))
-        for scale in (s for s in SCALES if s <= most):
-            # bare views are held against the fields before they are laid out
-            bare = [Box(0.0, 0.0, scale * wide, scale * tall) for wide, tall in extents]
-            for field in fields(canvas):
-                if _origins(bare, field) and _places(views_at(scale), field):
-                    return scale
-        return 0.0
+    def holds(canvas: Canvas, scale: float) -> bool:
+        """Whether both views stand in a field."""
+        # bare views are held against the fields before they are laid out
+        bare = [Box(0.0, 0.0, scale * wide, scale * tall) for wide, tall in extents]
+        return any(_origins(bare, field) and _places(views_at(scale), field) for field in fields(canvas))
 
-    canvas, scale = sheet_for(asked, greatest, min(_ENLARGED, _LEAST / max(map(max, extents))))
+    def greatest(canvas: Canvas) -> float:
+        """The greatest scale at which they do."""
+        most = max(canvas.width, canvas.height) / max(map(max, extents))
+        return next((scale for scale in SCALES if scale <= most and holds(canvas, scale)), 0.0)
+
+    canvas, scale = sheet_for(asked, greatest, min(_ENLARGED, _LEAST / max(map(max, extents))), holds)
     made = views_at(scale)
     canvas.box("FRAME", canvas.frame)
     corner = complex(canvas.frame.right - TITLE_BLOCK[0], canvas.frame.low + tall)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from functools import cache
 
@@ -34,46 +35,70 @@ def blank(name: str, *, upright: bool, band: float = 0.0, margins: tuple[float, 
     return Canvas(width, height, name, band=band, margins=margins)
 
 
-def sheet_for(asked: Asked, greatest: Callable[[Canvas], float], least: float) -> tuple[Canvas, float]:
+def sheet_for(
+    asked: Asked,
+    greatest: Callable[[Canvas], float],
+    least: float,
+    holds: Callable[[Canvas, float], bool] | None = None,
+) -> tuple[Canvas, float]:
     """The sheet of a picture and its scale.
 
     ``greatest``: the greatest scale at which a sheet holds the picture, 0 where it holds none; ``least``: the scale
-    below which a larger paper is better, where the scene leaves both open.
+    below which a larger paper is better, where the scene leaves both open; ``holds``: whether a sheet holds it at a
+    scale, where it may hold none at a smaller one than the greatest: words do not shrink.
 
     Raises
     ------
     ParameterError
-        The paper is too small, or no paper is large enough.
+        The paper is too small, no paper is large enough, or no scale.
     """
+    given = None if asked.scale is None else scale_value(asked.scale)
+
+    def most_on(sheet: Canvas) -> float:
+        if given is None or holds is None:
+            return greatest(sheet)
+        return given if holds(sheet, given) else 0.0
+
+    def sheets(name: str) -> list[Canvas]:
+        """Both ways in which a paper may lie."""
+        return [
+            blank(name, upright=upright, band=asked.band) for upright in ((True, False) if name != "A4" else (True,))
+        ]
 
     @cache
     def best(name: str) -> tuple[float, Canvas]:
         """The greatest scale on a paper, and how it lies."""
-        found = []
-        for upright in (True, False) if name != "A4" else (True,):
-            sheet = blank(name, upright=upright, band=asked.band)
-            most = greatest(sheet)
-            found.append((next((s for s in SCALES if s <= most * (1 + 1e-9)), 0.0), sheet))
+        mosts = ((most_on(sheet), sheet) for sheet in sheets(name))
+        found = [(next((s for s in SCALES if s <= most * (1 + 1e-9)), 0.0), sheet) for most, sheet in mosts]
         return max(found, key=lambda pair: pair[0])
 
     def holding(scale: float) -> Iterator[str]:
         return (name for name in PAPERS if best(name)[0] >= scale)
 
-    given = None if asked.scale is None else scale_value(asked.scale)
+    def other_scale() -> float:
+        """The scale that some paper holds, the nearest to the one that none does; 0 where there is none."""
+        if given is None or holds is None:
+            return max(best(name)[0] for name in PAPERS)
+        near = sorted(SCALES, key=lambda scale: abs(math.log(scale / given)))
+        blanks = [sheet for name in PAPERS for sheet in sheets(name)]
+        return next((scale for scale in near if any(holds(sheet, scale) for sheet in blanks)), 0.0)
+
     lowest = given or SCALES[-1]
     # larger papers are tried only where no smaller one does
     name = asked.paper or next(holding(max(lowest, given or least)), None)
     if name is None or best(name)[0] < lowest:
-        holds = list(holding(lowest))
-        if not holds:
-            scale = max(best(name)[0] for name in PAPERS)
+        large = list(holding(lowest))
+        if not large:
+            scale = other_scale()
             if given is not None and scale:
-                nearest = Nearest(scale_name(scale), "at_most")
-                raise ParameterError("scale", asked.scale, "fits_no_paper_so_large", nearest)
+                small = scale > given
+                nearest = Nearest(scale_name(scale), "at_least" if small else "at_most")
+                code = "fits_no_scale_so_small" if small else "fits_no_paper_so_large"
+                raise ParameterError("scale", asked.scale, code, nearest)
             raise ParameterError("paper", asked.paper, "fits_no_paper")
         if asked.paper is not None:
             code = "paper_too_small" if given is None else "paper_too_small_for_scale"
-            raise ParameterError("paper", asked.paper, code, Nearest(holds[0], "at_least"), scale=asked.scale)
-        name = max(holds, key=lambda n: best(n)[0])
+            raise ParameterError("paper", asked.paper, code, Nearest(large[0], "at_least"), scale=asked.scale)
+        name = max(large, key=lambda n: best(n)[0])
     scale, sheet = best(name)
     return sheet, given or scale

@@ -207,15 +207,18 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
                 return corner, shifts
         return None
 
+    def holds(canvas: Canvas, scale: float) -> bool:
+        """Whether all views stand on a sheet."""
+        return any(held(canvas, scale, apart=one) for one in (False, True))
+
     def greatest(canvas: Canvas) -> float:
-        """The greatest scale at which all views stand on a sheet."""
+        """The greatest scale at which they do."""
         most = min(canvas.frame.wide, canvas.frame.tall) / min(size)
         # unless a paper is asked for, what is large enough stays in its size
-        most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
-        fits = (s for s in SCALES if low <= s <= most and any(held(canvas, s, apart=one) for one in (False, True)))
-        return next(fits, 0.0)
+        most, low = (most, 0.0) if asked.paper else (min(most, max(least, 1.0)), least / _SMALLER)
+        return next((s for s in SCALES if low <= s <= most and holds(canvas, s)), 0.0)
 
-    canvas, scale = sheet_for(asked, greatest, least)
+    canvas, scale = sheet_for(asked, greatest, least, holds)
     # the paper may lie the other way where all views then stand on one axis
     turned = blank(canvas.paper, upright=canvas.width > canvas.height, band=asked.band)
     ways = [(canvas, False), *([(turned, False)] if canvas.paper != "A4" else []), (canvas, True)]

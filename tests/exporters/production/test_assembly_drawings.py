@@ -328,3 +328,17 @@ def test_the_section_goes_through_the_axes_of_gears_not_through_that_of_a_key(tm
         ] == pytest.approx(both)
     else:
         assert (sorted(found[0]), sorted(found[90])) == (pytest.approx([120.0, 246.0]), pytest.approx([89.0, 186.0]))
+
+
+@pytest.mark.parametrize(("scale", "offered"), [("1:1", "2:1"), ("100:1", "20:1")])
+def test_a_scale_at_which_words_find_no_room_is_told_with_one_at_which_they_do(scale: str, offered: str) -> None:
+    """Words do not shrink: at 2:1 they stand about the roller, at 1:1 they meet. Before: a traceback."""
+    roller = {
+        "kind": "roller", "diameter": 16.48, "hub": {"diameter": 14.0, "below": 1.9, "above": 0.9},
+        "bore": {"shape": "square", "across_flats": 6.6, "corner_radius": 0.1, "clearance": 1.9, "angle_deg": 138.4},
+    }  # fmt: skip
+    export = {"format": "svg", "purpose": "assembly"}
+    found = refused({"roller": roller}, exports=[export | {"scale": scale}])
+    assert (found.key, found.nearest and found.nearest.value) == ("exports[1].scale", offered)
+    raw = {"parts": {"roller": roller}, "exports": [export | {"scale": offered}]}
+    assert plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
