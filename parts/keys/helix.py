@@ -71,14 +71,16 @@ def same_helix(first: ToothedKeys, second: ToothedKeys) -> float:
     Raises
     ------
     ParameterError
-        They differ.
+        They differ, or one of both gears alone is double helical.
     """
-    one, two = helix_of(first).angle, helix_of(second).angle
-    if one != two:
+    one, two = helix_of(first), helix_of(second)
+    if one.angle != two.angle:
         raise ParameterError(
             "helix_angle_deg", second.helix_angle_deg, "not_that_of_first", Nearest(first.helix_angle_deg)
         )
-    return one
+    if one.angle and one.double != two.double:
+        raise ParameterError("double_helical", two.double, "one_double_helix", Nearest(one.double))
+    return one.angle
 
 
 def checked_teeth(keys: ToothedKeys, number_of_teeth: int) -> Helix:

@@ -135,6 +135,7 @@ class _Page:
             one = self._given(keys.teeth)
             places = self._assembled(one) if self._coaxial_enough(one) else equal
             return partial(self._of_one, one, places)
+        check_not_in_vain(keys, ("spacing",), "teeth")
         return partial(self._of_several, self._sought(), equal)
 
     def _of_one(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> Sheet:

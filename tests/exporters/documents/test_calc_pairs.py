@@ -96,6 +96,9 @@ def test_a_hand_that_is_turned_by_the_sign_of_the_angle_changes_no_number(kind: 
     assert turned == plain
     with pytest.raises(SceneError, match="helix_angle_deg"):
         values_of(f"{pair} first.helix_angle_deg=-19")
+    for alone in ("first", "second"):
+        with pytest.raises(SceneError, match=r"second\.double_helical = .* with another one only; (false|true) works"):
+            values_of(f"{pair} first.helix_angle_deg=20 {alone}.double_helical=true")
 
 
 @pytest.mark.parametrize("words", SHEETS)

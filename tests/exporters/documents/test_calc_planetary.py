@@ -199,6 +199,7 @@ def test_tables_as_csv() -> None:
         (("ratio=2.5", "second_module=2"), ("second_module = 2", "one module")),
         (("ratio=2.5", "least_teeth=200"), ("least_teeth = 200", "is above most_teeth")),
         (("ratio=14.2",), ("ratio = 14.2", "works")),
+        (("ratio=2.5", "spacing=unequal"), ('spacing = "unequal"', "needs teeth too")),
         (("teeth=[40,40,120]", "largest_diameter=50"), ("largest_diameter = 50", "needs ratio too")),
         (("scheme=david", "teeth=[30,20,20,30]"), ("transmits nothing",)),
         (("scheme=jemes", "ratio=3"), ('"jemes"', "james")),
