@@ -14,8 +14,10 @@ from geometry.base.errors import ParameterError
 from geometry.base.findings import Finding
 from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.strength import iso6336
+from geometry.gears.strength.materials import GROUPS
 from parts.base.texts import N_
 from parts.gears.spur_gear.page import cutter_data, given_data, sector_data, shift_data, thinning_data
+from parts.keys.base import check_not_in_vain
 from parts.mates.pages.external import Asked, PairKeys, Pairs, external_page, table_of_pair
 from parts.mates.pages.internal import InternalKeys, internal_page
 from parts.mates.pages.pair_keys import kind_of_pair
@@ -87,6 +89,7 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
     if rated.keys.method == "GOST 21354":
         gost_steps(page, rated, loaded=torque is not None)
     else:
+        _check_iso(rated)
         if torque is not None:
             _load_factors(page, rated)
         for steps in (flank_stress, flank_allowed, root_stress, root_allowed):
@@ -98,6 +101,15 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
     if rated.unused:
         page.note(N_("{method} has no {keys}: not used"), method=rated.keys.method, keys=", ".join(rated.unused))
     return page
+
+
+def _check_iso(rated: Rated) -> None:
+    """Refuse keys that act only with a life, or with the materials of which a table goes by the yield strength."""
+    if rated.cycles is None:
+        check_not_in_vain(rated.keys, ("long_life_factor", "pits_allowed"), "load_cycles")
+    if not any(group is not None and len(group.slip) > 1 for group in rated.groups):
+        names = ", ".join(f'"{name}"' for name, group in GROUPS.items() if len(group.slip) > 1)
+        check_not_in_vain(rated.keys, ("yield_strength",), f"material_group = {names}")
 
 
 def _mesh(page: Sheet, rated: Rated, wanted: str) -> None:
