@@ -22,7 +22,9 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.rack import RackPair
+from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_tooth import RingSide
+from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.profile import Label, Segment
 
@@ -71,7 +73,7 @@ class MeshingPicture(Record):
     """Bodies, points and arcs of the picture, mm, rad; ``tangent_points`` N1 and N2 (None: a rack has none).
 
     ``start`` and ``end`` of contact and the ``pole`` are places s on the line of action, whose direction of travel is
-    ``direction``; ``arc_of_action`` (d d') lies on the first working circle, ``pitch`` (p_w) on the second one.
+    ``direction``; ``pitch`` (p_w) lies on the second working circle.
     """
 
     kind: str
@@ -82,7 +84,6 @@ class MeshingPicture(Record):
     start: float
     end: float
     pole: float
-    arc_of_action: Arc
     pitch: Arc | Line
     working_pitch: float
     base_pitch: float
@@ -95,7 +96,14 @@ class MeshingPicture(Record):
     @property
     def shown(self) -> float:
         """The place of contact in the main position: the pole, or the middle of an active line that leaves it out."""
-        return self.pole if self.start <= self.pole <= self.end else (self.start + self.end) / 2
+        return _shown(self.start, self.end, self.pole)
+
+    @property
+    def arc_of_action(self) -> Arc:
+        """d d', on the first working circle."""
+        radii = self.bodies[0].radii
+        begun, sweep = (s / radii["base"] for s in (self.start - self.pole, self.end - self.start))
+        return Arc(0j, radii["working"], math.pi / 2 + begun, sweep)
 
 
 def meshing_picture(pair: Pair) -> MeshingPicture:
@@ -116,7 +124,7 @@ def _gears(pair: ExternalPair | InternalPair) -> MeshingPicture:
     angle, a_w, sign = pair.working_pressure_angle, pair.working_centre_distance, pair.sign
     one, two = pair.first.base_radius, pair.second.base_radius
     theta, line, axis = math.pi / 2 - angle, a_w * math.sin(angle), sign * 1j * a_w
-    ends, betas = pair.active_profile_radii, (pair.first.base_half_angle, pair.second.base_half_angle)
+    ends, beta = pair.active_profile_radii, pair.second.base_half_angle
     if isinstance(pair, InternalPair):
         low, high = (tangent_length(r, two) - line for r in ends[1])
         low, tooth = max(low, 0.0), _ring_tooth(pair.second_side)
@@ -125,30 +133,22 @@ def _gears(pair: ExternalPair | InternalPair) -> MeshingPicture:
         tooth = _external_tooth(pair.second_side)
     pole, spoke = one * math.tan(angle), cmath.exp(1j * theta)
 
-    def first(s: float) -> Placement2:
-        return Placement2(theta - betas[0] + s / one)
-
     def second(s: float) -> Placement2:
-        return Placement2(theta + pair.facing - betas[1] + (line - sign * s) / two, axis)
+        return Placement2(theta + pair.facing - beta + (line - sign * s) / two, axis)
 
-    radii = [
-        dict(zip(CIRCLES, (g.tip_radius, w, g.reference_radius, g.base_radius, g.root_radius), strict=True))
-        for g, w in ((pair.first, pair.working_radii[0]), (pair.second, pair.working_radii[1]))
-    ]
+    radii = _circles(pair.second, pair.working_radii[1])
     bodies = (
-        Body(0j, radii[0], Placement2(pair.first.pitch_angle), *_external_tooth(pair.first_side),
-             _active(pair.first_side, ends[0]), first),
-        Body(axis, radii[1], Placement2(pair.second.pitch_angle), *tooth, _active(pair.second_side, ends[1]), second),
-    )  # fmt: skip
-    shown = pole if low <= pole <= high else (low + high) / 2
+        _first_body(pair.first, pair.working_radii[0], pair.first_side, ends[0], theta),
+        Body(axis, radii, Placement2(pair.second.pitch_angle), *tooth, _active(pair.second_side, ends[1]), second),
+    )
+    shown = _shown(low, high, pole)
     # a ring's pitch ends where another's begins
     begun = -sign * math.pi / 2 + sign * (pole - shown) / two
     begun = begun if sign > 0 else begun - pair.second.pitch_angle
     pitch = Arc(axis, pair.working_radii[1], begun, pair.second.pitch_angle)
-    arc = Arc(0j, pair.working_radii[0], math.pi / 2 + (low - pole) / one, (high - low) / one)
     return MeshingPicture(
         "external" if sign > 0 else "internal", bodies, angle, (one * spoke, axis - sign * two * spoke), 1j * spoke,
-        low, high, pole, arc, pitch, pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
+        low, high, pole, pitch, pair.working_pitch, pair.base_pitch, pair.effective_contact_ratio,
     )  # fmt: skip
 
 
@@ -160,9 +160,6 @@ def _rack(pair: RackPair) -> MeshingPicture:
     pole, half = one * math.tan(angle), rack.tooth_thickness / 2
     ends = math.hypot(one, low), math.hypot(one, high)
 
-    def first(s: float) -> Placement2:
-        return Placement2(theta - gear.base_half_angle + s / one)
-
     def second(s: float) -> Placement2:
         at = spoke * (one + 1j * s)
         middle = at.real - half + (pair.distance - at.imag) * math.tan(angle)
@@ -172,29 +169,41 @@ def _rack(pair: RackPair) -> MeshingPicture:
         "tip": pair.distance - rack.addendum, "working": gear.reference_radius, "reference": pair.distance,
         "root": pair.distance + rack.dedendum,
     }  # fmt: skip
-    radii = dict(
-        zip(
-            CIRCLES, (gear.tip_radius, gear.reference_radius, gear.reference_radius, one, gear.root_radius), strict=True
-        )
-    )
     tooth = [s for s in pair.sides[1].segments if s.label is not Label.ROOT_LAND]
     land = [s for s in pair.sides[1].segments if s.label is Label.ROOT_LAND]
     depths = sorted((spoke * (one + 1j * s)).imag - pair.distance for s in (low, high))
     flank = next(s.curve for s in tooth if s.label is Label.FLANK)
-    step, active = Placement2(0.0, 1j * rack.pitch), _active(pair.sides[0], ends)
+    step = Placement2(0.0, 1j * rack.pitch)
     # the land above a tooth: the upper half of its own space and the lower half of the next tooth's
     gap = tuple(c for s in land for c in (s.curve.mirrored(), s.curve.placed(step)))
     bodies = (
-        Body(0j, radii, Placement2(gear.pitch_angle), *_external_tooth(pair.sides[0]), active, first),
+        _first_body(gear, gear.reference_radius, pair.sides[0], ends, theta),
         Body(None, heights, step, _both(tooth), gap, (_between(flank, *depths),), second),
     )
-    shown = pole if low <= pole <= high else (low + high) / 2
-    at = complex((pole - shown) * gear.reference_radius / one, gear.reference_radius)
-    arc = Arc(0j, gear.reference_radius, math.pi / 2 + (low - pole) / one, (high - low) / one)
+    at = complex((pole - _shown(low, high, pole)) * gear.reference_radius / one, gear.reference_radius)
     return MeshingPicture(
-        "rack", bodies, angle, (one * spoke, None), 1j * spoke, low, high, pole, arc, Line(at, at + rack.pitch),
-        rack.pitch, pair.base_pitch, pair.effective_contact_ratio,
+        "rack", bodies, angle, (one * spoke, None), 1j * spoke, low, high, pole, Line(at, at + rack.pitch), rack.pitch,
+        pair.base_pitch, pair.effective_contact_ratio,
     )  # fmt: skip
+
+
+def _shown(start: float, end: float, pole: float) -> float:
+    return pole if start <= pole <= end else (start + end) / 2
+
+
+def _first_body(gear: SpurGear, working: float, side: ToothSide, ends: tuple[float, float], theta: float) -> Body:
+    """The gear on the origin; radii of its working circle and between which its flank is active, mm."""
+
+    def place(s: float) -> Placement2:
+        return Placement2(theta - gear.base_half_angle + s / gear.base_radius)
+
+    step = Placement2(gear.pitch_angle)
+    return Body(0j, _circles(gear, working), step, *_external_tooth(side), _active(side, ends), place)
+
+
+def _circles(gear: SpurGear | RingGear, working: float) -> dict[str, float]:
+    radii = (gear.tip_radius, working, gear.reference_radius, gear.base_radius, gear.root_radius)
+    return dict(zip(CIRCLES, radii, strict=True))
 
 
 def _external_tooth(side: ToothSide) -> tuple[Curves, Curves]:
