@@ -8,6 +8,7 @@ centres.
 from __future__ import annotations
 
 import math
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -55,8 +56,7 @@ class _Places(NamedTuple):
 
     def take(self, rows: Indices | Flags) -> _Places:
         """Some of them."""
-        return _Places(self.drive[rows], self.curve[rows], self.share[rows], self.height[rows], self.turned[rows],
-                       self.own[rows], self.gap[rows])  # fmt: skip
+        return _Places(*map(itemgetter(rows), self))
 
 
 class _Teeth:

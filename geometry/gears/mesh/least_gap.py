@@ -10,6 +10,7 @@ neither end's slope tells of shows in the cubic through both ends.
 
 from __future__ import annotations
 
+from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -96,11 +97,10 @@ class _Ends(NamedTuple):
     foot: Indices
 
     def take(self, rows: Indices | Flags) -> _Ends:
-        return _Ends(self.t[rows], self.point[rows], self.value[rows], self.slope[rows], self.foot[rows])
+        return _Ends(*map(itemgetter(rows), self))
 
     def and_then(self, more: _Ends) -> _Ends:
-        t, point, value, slope, foot = (np.concatenate(pair) for pair in zip(self, more, strict=True))
-        return _Ends(t, point, value, slope, foot)
+        return _Ends(*(np.concatenate(pair) for pair in zip(self, more, strict=True)))
 
 
 class _Pieces(NamedTuple):

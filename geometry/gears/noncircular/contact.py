@@ -8,10 +8,11 @@ minima between samples are bracketed as for circular gears (geometry/plane/dista
 from __future__ import annotations
 
 import math
+from operator import itemgetter
+from typing import NamedTuple
 
 import numpy as np
 
-from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
@@ -52,7 +53,7 @@ def noncircular_contact(
     return _concluded(pair, arcs, found, allowed)
 
 
-class _Gaps(Record):
+class _Gaps(NamedTuple):
     """Least gap at each position and tooth side (n, 2), where, in the fixed frame, and on which curves."""
 
     gap: Real
@@ -62,8 +63,7 @@ class _Gaps(Record):
 
     def joined(self, other: _Gaps) -> _Gaps:
         """Both, one after the other."""
-        names = ("gap", "point", "first", "second")
-        return _Gaps(*(np.concatenate([getattr(self, n), getattr(other, n)]) for n in names))
+        return _Gaps(*(np.concatenate(pair) for pair in zip(self, other, strict=True)))
 
 
 def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) -> PairContact:
@@ -80,7 +80,7 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
     return told_contact(verdict_of(gap, allowed), allowed, drive, gap, place)
 
 
-class _Lanes(Record):
+class _Lanes(NamedTuple):
     """Pieces of the second outline at positions: position, side, curve, turn and shift into the first body's frame;
     candidates (n, k) of the first outline's curves with the turns that bring them there, -1 where there is none."""
 
@@ -94,8 +94,7 @@ class _Lanes(Record):
 
     def chosen(self, rows: Indices) -> _Lanes:
         """Some of them."""
-        names = ("position", "side", "curve", "turn", "shift", "facing", "facing_turn")
-        return _Lanes(*(getattr(self, n)[rows] for n in names))
+        return _Lanes(*map(itemgetter(rows), self))
 
 
 class _Mesh:
