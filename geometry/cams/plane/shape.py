@@ -14,7 +14,7 @@ from geometry.base.tolerance import TOLERANCES
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.undercut import Gap, kept_arcs
-from geometry.curves.curve import Curve, Reversed, end_point, start_point
+from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.laws.piece import LawPiece
 from geometry.plane.profile import Label, Profile, Segment
@@ -54,7 +54,8 @@ def cam_shape(cam: DiskCam, grow: float = 0.0) -> CamShape:
     chain = [segment for arc in arcs for segment in _run(cam, *arc, grow)]
     if arcs[-1][1] - arcs[0][0] == TURN:
         chain += _filling(cam, grow, chain[-1].curve, chain[0].curve, 0.0)
-    ordered = [Segment(_backwards(s.curve), s.label) for s in reversed(chain)]
+    # against the cam angle: counter-clockwise about the axis
+    ordered = [Segment(s.curve.reversed(), s.label) for s in reversed(chain)]
     return CamShape(Profile(tuple(ordered)), kept.gaps)
 
 
@@ -176,8 +177,3 @@ def _filling(cam: DiskCam, grow: float, before: Curve, after: Curve, angle: floa
     centre = complex(cam.reference_point(angle)) * cmath.exp(-1j * angle)
     sweep = cmath.phase((end - centre) / (start - centre))
     return [Segment(Arc(centre, abs(grow - cam.radius), cmath.phase(start - centre), sweep), Label.CORNER)]
-
-
-def _backwards(curve: Curve) -> Curve:
-    """The curve against the cam angle: counter-clockwise about the axis."""
-    return curve.reversed() if isinstance(curve, Arc | Line) else Reversed(curve)

@@ -6,20 +6,14 @@ from geometry.base.record import replace
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.shape import cam_shape
 from geometry.cams.plane.undercut import lost_to_undercut
-from geometry.curves.curve import Reversed
-from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile, Segment
 from geometry.solids.body import Body, Cap, opened
 
 
 def reversed_profile(profile: Profile) -> Profile:
     """The same closed chain run the other way."""
-    turned = []
-    for segment in reversed(profile.period):
-        curve = segment.curve
-        back = curve.reversed() if isinstance(curve, Arc | Line | Reversed) else Reversed(curve)
-        turned.append(Segment(back, segment.label))
-    return Profile(tuple(turned), profile.count, not profile.clockwise if profile.count > 1 else profile.clockwise)
+    turned = tuple(Segment(s.curve.reversed(), s.label) for s in reversed(profile.period))
+    return Profile(turned, profile.count, not profile.clockwise if profile.count > 1 else profile.clockwise)
 
 
 def outer_wall(cam: DiskCam, clearance: float, offset: float = 0.0) -> Profile:

@@ -24,6 +24,7 @@ from geometry.base.series import Series, derived, exponential, taylor
 from geometry.cams.motion.follower_motion import Phase, PieceMotion, pieces_of
 from geometry.cams.plane.curves import CentreEnvelope, Lift
 from geometry.cams.plane.disk import FollowerKind
+from geometry.cams.plane.undercut import least_stretch
 from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point, vertex_sign
 from geometry.curves.line_arc import Arc, Line
 from geometry.laws.piece import LawPiece
@@ -239,11 +240,8 @@ def wedge_fault(cam: WedgeCam, grow: float = 0.0) -> tuple[str, float] | None:
         rate = path.derivative(t)
         if not np.all(rate.real > 0):
             return "steep", float(t[int(np.argmin(rate.real))])
-        stretch = curve.stretch(t)
-        lowest = int(np.argmin(stretch))
-        near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _SAMPLES)
-        if min(float(stretch[lowest]), float(curve.stretch(near).min())) <= _SHARP:
-            return "crest", float(t[lowest])
+        if least_stretch(curve, t) <= _SHARP:
+            return "crest", float(t[int(np.argmin(curve.stretch(t)))])
         start = complex(curve.point(piece.start))
         # a valley opens a gap, which the follower's own arc fills; at a crest both sides step back and cross
         if before is not None and (start - before).real < -_JOINT * (1 + abs(start)):
@@ -314,7 +312,7 @@ def _outline(cam: WedgeCam, grow: float) -> Profile | None:
     made += _corner(complex(right, -grow), radius, -math.pi / 2)
     made.append(Line(complex(right, -grow + radius), complex(right, last - radius)))
     made += _corner(complex(right, last), radius, 0.0)
-    made += [c.reversed() if isinstance(c, Arc | Line) else Reversed(c) for c in reversed(top)]
+    made += [c.reversed() for c in reversed(top)]
     made += _corner(complex(left, first), radius, math.pi / 2)
     made.append(Line(complex(left, first - radius), complex(left, -grow + radius)))
     made += _corner(complex(left, -grow), radius, math.pi)
