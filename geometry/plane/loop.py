@@ -15,6 +15,7 @@ import numpy as np
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import lines_cross
 
 _TURN = 2 * math.pi
 # part of a radius by which a strand may run into a circle
@@ -150,7 +151,7 @@ class Loop(Record, dict=True):
                 if j not in (k, (k + 1) % count) and _distance(wheel.centre, start, end) < wheel.radius * (1 - _SAME):
                     return j, (k + 1) % count, k
             for j, (other, last) in enumerate(self.strands[:k]):
-                if _cross(start, end, other, last):
+                if lines_cross(start, end, other, last):
                     return (k + 1) % count, k, (j + 1) % count, j
         return ()
 
@@ -188,12 +189,3 @@ def _distance(point: complex, start: complex, end: complex) -> float:
     way = end - start
     share = ((point - start) * way.conjugate()).real / abs(way) ** 2
     return abs(point - start - min(max(share, 0.0), 1.0) * way)
-
-
-def _cross(start: complex, end: complex, other: complex, last: complex) -> bool:
-    """Whether two straight lines cross within both."""
-
-    def side(a: complex, b: complex, point: complex) -> float:
-        return ((b - a).conjugate() * (point - a)).imag
-
-    return side(start, end, other) * side(start, end, last) < 0 > side(other, last, start) * side(other, last, end)

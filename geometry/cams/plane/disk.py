@@ -308,7 +308,7 @@ def oscillating_cam(
             # a face that begins farther from the line of centres does not come over it
             least = centre_distance * math.sin(1e-6 - low) - face_offset
             raise ParameterError.beyond("base_circle_radius", base_circle_radius, "swings_beyond_centres", least)
-        slowest = _slowest_turning(motion, sense)
+        slowest = slowest_turning(motion, sense)
         if not slowest > 0:
             # S' goes with the lift
             most = motion.lift / (1 - slowest) * (1 - 1e-6)
@@ -332,7 +332,7 @@ def _scaled(motion: FollowerMotion, share: float) -> Nearest | None:
     return limit(share * (1 - 1e-6) * motion.lift, motion.lift, digits=9) if share > 0 else None
 
 
-def _slowest_turning(motion: FollowerMotion, sense: int) -> float:
+def slowest_turning(motion: FollowerMotion, sense: int) -> float:
     """Least 1 + sense psi' over the turn."""
     low, high = motion.extremes(1)
     return 1 + min(sense * low, sense * high)

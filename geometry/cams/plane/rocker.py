@@ -17,6 +17,7 @@ import numpy as np
 
 from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.cams.motion.follower_motion import FollowerMotion
+from geometry.cams.plane.disk import slowest_turning
 from geometry.cams.plane.synthesis import OscillatingAxis, greatest_of
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
@@ -54,7 +55,8 @@ def rocker_base(
     ConvergenceError
         The pivot stands too near, or what one cam angle asks for another one forbids.
     """
-    _check_turning(motion, sense)
+    if not slowest_turning(motion, sense) > 0:
+        raise ParameterError("sense", sense, "flat_outruns_cam")
     level, stack = least_radius + face_offset, motion.stack
 
     def terms(k: Indices, t: Real) -> tuple[Real, Real]:
@@ -79,9 +81,3 @@ def rocker_base(
     if not least <= most:
         raise ConvergenceError("axis of the flat rocker: no cam is convex at this distance", least - most, 1)
     return OscillatingAxis(centre_distance, least, centre_distance * math.sin(least) - face_offset)
-
-
-def _check_turning(motion: FollowerMotion, sense: int) -> None:
-    low, high = motion.extremes(1)
-    if not 1 + min(sense * low, sense * high) > 0:
-        raise ParameterError("sense", sense, "flat_outruns_cam")

@@ -22,6 +22,7 @@ from geometry.gears.noncircular.pairing import Pairing
 from geometry.gears.noncircular.pitch_line import PitchLine
 from geometry.gears.noncircular.undercut import Flanks, flank_starts
 from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.sector import centred
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
@@ -186,7 +187,8 @@ def cut_outline(gear: NoncircularGear, inset: float = 0.0) -> Outline:
         gear.tip_height - inset,
         rack.rounding_half_distance * m + widening,
     )
-    first = _first_number(teeth, gear.first_tooth)
+    # evenly about the angle 0, so that mirror images fall into the period
+    first = centred(teeth, 1 if gear.first_tooth == 0 else -1)
     middle = (np.arange(first, first + teeth) + gear.first_tooth) * p
     sign = np.repeat([1.0, -1.0], teeth)
     space = np.concatenate([middle - p / 2, middle + p / 2])
@@ -204,11 +206,6 @@ def cut_outline(gear: NoncircularGear, inset: float = 0.0) -> Outline:
     segments, owners = _segments(gear, sides, cut, first)
     thinnest = _least_thickness(gear.line, land, cut.tip)
     return Outline(tuple(segments), tuple(owners), first, undercut, thinnest, sides, cut)
-
-
-def _first_number(teeth: int, first_tooth: float) -> int:
-    """The first tooth of a period that lies evenly about the angle 0, so that mirror images fall into it."""
-    return -((teeth - 1) // 2) if first_tooth == 0 else -(teeth // 2)
 
 
 def _segments(gear: NoncircularGear, sides: Sides, cut: Cut, first: int) -> tuple[list[Segment], list[tuple[int, int]]]:

@@ -182,8 +182,7 @@ class Fit(Record):
     def states(self) -> tuple[PairState | InternalState, PairState | InternalState]:
         """Both pairs, rim first."""
         x1, x2, x2p, x3 = self.shifts
-        one, two = self.meshes
-        return one.state(x2, x1), two.state(x2p, x3)
+        return self.meshes[0].state(x2, x1), self.meshes[1].state(x2p, x3)
 
     def broken(self) -> tuple[tuple[Margin, ...], tuple[Margin, ...]]:
         """The conditions that each mesh does not keep, and with the first the neighbours' gap.
@@ -251,10 +250,8 @@ class Fitting(Record):
         """Contact ratios of both meshes of a fit as a scene makes them, which makes none of other racks."""
         if self.rack != _BUILT:
             return None
-        if not double:
-            return made_ratios(fit.meshes, fit.distance, fit.shifts[1])
-        one, two = (made_ratios((mesh,), fit.distance, x) for mesh, x in zip(fit.meshes, fit.shifts[1:3], strict=True))
-        return one + two
+        rims = zip(_by_rim(fit.meshes, double), fit.shifts[1:3], strict=False)
+        return tuple(ratio for meshes, x in rims for ratio in made_ratios(meshes, fit.distance, x))
 
     def _meshes(self, teeth: PlanetarySet) -> tuple[RimMesh, RimMesh]:
         z1, z2, z2p, z3 = teeth.teeth
@@ -282,18 +279,14 @@ class Fitting(Record):
         # tips reach the least at the least shift
         if not all(self._clear(mesh, distance, min(self._rim_shifts(mesh))) for mesh in meshes):
             return None
-        if not teeth.scheme.double:
-            good = (x for x in self._rim_shifts(meshes[0]) if all(self._keeps(m, distance, x) for m in meshes))
-            x = next((x for x in good if self._made_keep(meshes, distance, x)), None)
-            return None if x is None else self._with(meshes, distance, (x, x))
         rims = []
-        for mesh in meshes:
-            good = (x for x in self._rim_shifts(mesh) if self._keeps(mesh, distance, x))
-            x = next((x for x in good if self._made_keep((mesh,), distance, x)), None)
+        for own in _by_rim(meshes, teeth.scheme.double):
+            good = (x for x in self._rim_shifts(own[0]) if all(self._keeps(m, distance, x) for m in own))
+            x = next((x for x in good if self._made_keep(own, distance, x)), None)
             if x is None:
                 return None
             rims.append(x)
-        return self._with(meshes, distance, (rims[0], rims[1]))
+        return self._with(meshes, distance, (rims[0], rims[-1]))
 
     def _rim_shifts(self, mesh: RimMesh) -> list[float]:
         """The shifts of a rim that are tried, the least first; that at which it is no longer undercut among them."""
@@ -334,6 +327,11 @@ class Fitting(Record):
         fit = Fit(meshes, distance, shifts, 0.0, self.least_gap, self.wish)
         tip = max(meshes[0].tips(x2, x1)[0], meshes[1].tips(x2p, x3)[0])
         return replace(fit, gap=gap_between(distance, tip, self.apart))
+
+
+def _by_rim(meshes: tuple[RimMesh, RimMesh], double: bool) -> tuple[tuple[RimMesh, ...], ...]:
+    """The meshes that share a rim: of double satellites each has its own."""
+    return (meshes[:1], meshes[1:]) if double else (meshes,)
 
 
 def made_ratios(meshes: Sequence[RimMesh], distance: float, rim_shift: float) -> tuple[float, ...]:
