@@ -64,6 +64,22 @@ def exponential(a: Sequence[Any]) -> Series:
     return y
 
 
+def modulus_square(a: Sequence[Any]) -> Series:
+    """Coefficients of |a|^2 along a real parameter."""
+    return [np.real(x) for x in product(a, conjugate(a))]
+
+
+def unit(a: Sequence[Any]) -> Series:
+    """Coefficients of the direction a / |a|."""
+    return product(a, power(modulus_square(a), -0.5))
+
+
+def argument(a: Sequence[Any]) -> Series:
+    """Coefficients of the angle of a, from that of a[0] on, rad."""
+    rates = quotient(derived(a), a)
+    return [np.angle(a[0]), *(x.imag / (k + 1) for k, x in enumerate(rates))]
+
+
 def composed(outer: Sequence[Any], inner: Sequence[Any]) -> Series:
     """Coefficients of outer(inner), ``outer`` being expanded about inner[0]: Horner's scheme on series."""
     step: Series = [0.0 * inner[0], *inner[1:]]

@@ -17,7 +17,7 @@ from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
-from geometry.base.series import FACTORIALS, Series, conjugate, power, product
+from geometry.base.series import FACTORIALS, Series, unit
 
 if TYPE_CHECKING:
     from dataclasses import Field
@@ -293,9 +293,7 @@ class OffsetCurve(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Taylor arithmetic: n = i c' / sqrt(c' conj(c'))."""
         first = [self.base.derivative(t, k + 1) / FACTORIALS[k] for k in range(order + 1)]
-        square = product(first, conjugate(first))
-        normal = product(first, power([x.real for x in square], -0.5))
-        return self.base.derivative(t, order) + 1j * self.distance * FACTORIALS[order] * normal[order]
+        return self.base.derivative(t, order) + 1j * self.distance * FACTORIALS[order] * unit(first)[order]
 
     def _stretch(self, t: ArrayLike) -> Real:
         return 1 - self.distance * self.base.curvature(t)

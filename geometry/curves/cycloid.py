@@ -19,7 +19,7 @@ from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
-from geometry.base.series import FACTORIALS, Series, conjugate, power, product, sharpened
+from geometry.base.series import FACTORIALS, Series, product, sharpened, unit
 from geometry.curves.bounds import BoundedSpan
 from geometry.curves.curve import Carried, Complex, Curve, Real, Span
 
@@ -69,9 +69,8 @@ class ShortTrochoid(BoundedSpan, Record):
         small = 2j * np.sin(rate * t / 2) * np.exp(0.5j * rate * t)
         first: Series = [(1 - short) - short * small]
         first += [-short * wave * ((1j * rate) ** k / FACTORIALS[k]) for k in range(1, order + 1)]
-        inverse = power([x.real for x in product(first, conjugate(first))], -0.5)
         turn = np.exp(1j * t)
-        return product(product(first, inverse), [turn * (1j**k / FACTORIALS[k]) for k in range(order + 1)])
+        return product(unit(first), [turn * (1j**k / FACTORIALS[k]) for k in range(order + 1)])
 
     def series(self, t: ArrayLike, order: int) -> Series:
         """Taylor coefficients of the curve at ``t``."""

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.base.roots import crests, tops
-from geometry.base.series import Series, conjugate, derived, power, product
+from geometry.base.series import Series, conjugate, derived, modulus_square, power, product, unit
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.linkage import cosine_range
 
@@ -142,11 +142,12 @@ class Levers(Record):
             return Moved(points, links)
         reach: Series | None = None
         if isinstance(self.first, Stone):
-            reach, lever = _unit(_from(end, self.first.pivot))
+            spoke = _from(end, self.first.pivot)
+            reach, lever = power(modulus_square(spoke), 0.5), unit(spoke)
             links = {"3": lever}
         else:
             joint = _joined(end, self.first)
-            links = {"2": _unit(_minus(joint, end))[1], "3": _unit(_from(joint, self.first.pivot))[1]}
+            links = {"2": unit(_minus(joint, end)), "3": unit(_from(joint, self.first.pivot))}
             lever = links["3"]
         points = {"A": end, "B": _along(lever, self.lever, self.first.pivot)}
         if self.second is not None:
@@ -156,8 +157,8 @@ class Levers(Record):
                 points["D"], links["4"] = _slid(own, self.second)
             else:
                 points["D"] = _joined(own, self.second)
-                links["4"] = _unit(_minus(points["D"], own))[1]
-                links["5"] = _unit(_from(points["D"], self.second.pivot))[1]
+                links["4"] = unit(_minus(points["D"], own))
+                links["5"] = unit(_from(points["D"], self.second.pivot))
         return Moved(points, links, reach)
 
 
@@ -418,12 +419,6 @@ def _along(direction: Series, by: complex, pivot: complex) -> Series:
     return [pivot + by * direction[0], *(by * d for d in direction[1:])]
 
 
-def _unit(vector: Series) -> tuple[Series, Series]:
-    """Length and direction."""
-    square = [np.real(x) for x in product(vector, conjugate(vector))]
-    return power(square, 0.5), product(vector, power(square, -0.5))
-
-
 def _slid(joint: Series, slider: Slider) -> tuple[Series, Series]:
     """The slider's place, and the direction of its rod."""
     way = cmath.exp(1j * slider.angle)
@@ -435,14 +430,13 @@ def _slid(joint: Series, slider: Slider) -> tuple[Series, Series]:
     travel = [np.real(x) + slider.side * y for x, y in zip(seen, ahead, strict=True)]
     place = [way * x for x in travel]
     place[0] = place[0] + slider.on
-    return place, _unit(_minus(place, joint))[1]
+    return place, unit(_minus(place, joint))
 
 
 def _joined(joint: Series, rods: Rods) -> Series:
     """The common end of a rod from a joint and a rocker: the corner of a triangle with three known sides."""
     base = [-x for x in _from(joint, rods.pivot)]
-    square = [np.real(x) for x in product(base, conjugate(base))]
-    inverse = power(square, -1.0)
+    inverse = power(modulus_square(base), -1.0)
     # along and across the way to the pivot, in parts of it
     along = [(rods.rod**2 - rods.rocker**2) / 2 * x for x in inverse]
     along[0] = along[0] + 0.5

@@ -17,9 +17,9 @@ from geometry.base.record import Record, replace
 from geometry.base.series import (
     About,
     Series,
-    conjugate,
     exponential,
     majorant_power,
+    modulus_square,
     power,
     product,
     quotient,
@@ -136,7 +136,7 @@ class RockerGuide(Record):
     def turn(self, joint: Series, length: float) -> Series:
         """exp(i theta) of the coupler of ``length`` mm, theta its angle from A to B; NaN where it does not close."""
         way = self._way(joint)
-        square: Series = [x.real for x in product(way, conjugate(way))]
+        square = modulus_square(way)
         with np.errstate(invalid="ignore"):
             root = power(self._radicand(square, length), 0.5)
         far = square[0] + (length - self.length) * (length + self.length)
@@ -165,7 +165,7 @@ class RockerGuide(Record):
         middle, half = at
         here = self._way(middle)
         way = sharpened([abs(self.pivot) + joint[0], *joint[1:]], here, half)
-        square_here: Series = [x.real for x in product(here, conjugate(here))]
+        square_here = modulus_square(here)
         square = sharpened(product(way, way), square_here, half)
         outer: Series = [(length + self.length) ** 2 + square[0], *square[1:]]
         inner: Series = [(length - self.length) ** 2 + square[0], *square[1:]]

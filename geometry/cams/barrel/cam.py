@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record, replace
-from geometry.base.series import Series, conjugate, derived, exponential, power, product, quotient, taylor
+from geometry.base.series import Series, argument, derived, exponential, modulus_square, power, product, taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, PhaseKind
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
@@ -196,16 +196,15 @@ class BarrelCam(Record, dict=True):
             rho = [first, *(a - b / slope for a, b in zip(rho[1:], rest[1:], strict=True))]
         q = self._touched(place, rate, rho, side)
         plane = [a + 1j * b.real for a, b in zip(rho, q, strict=True)]
-        turning = [x.imag for x in quotient(derived(plane), plane)]
-        polar = [np.angle(plane[0]) - angle, *(t / (k + 1) for k, t in enumerate(turning))]
-        polar[1] = polar[1] - 1.0
+        polar = argument(plane)
+        polar[0], polar[1] = polar[0] - angle, polar[1] - 1.0
         return polar, [x.imag for x in q]
 
     def _touched(self, place: Series, rate: Series, rho: Series, side: int) -> Series:
         """Series of the contact p + r n."""
         size: Series = [self.radius_at(rho[0]), *(self.taper * x for x in rho[1:])]
         w = [a + self.taper * s - b for a, s, b in zip(rho, size, rate, strict=True)]
-        least = power([x.real for x in product(w, conjugate(w))], -0.5)
+        least = power(modulus_square(w), -0.5)
         normal: Series = [1j * side * x for x in product(w, least)]
         if self.taper:
             lean = [self.taper * x for x in product([x.real for x in place], least)]

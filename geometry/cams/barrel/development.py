@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import CuspError, OffsetError
 from geometry.base.nearest import moved
 from geometry.base.record import Record, replace
-from geometry.base.series import FACTORIALS, Series, conjugate, derived, power, product, unit_majorant
+from geometry.base.series import FACTORIALS, Series, derived, unit, unit_majorant
 from geometry.cams.barrel.bounds import edge_bounds
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.curves.bounds import BoundedSpan
@@ -61,9 +61,7 @@ class DevelopedEdge(BoundedSpan, Record):
         if not self.distance:
             return self._edge(t, order)
         edge = self._edge(t, order + 1)
-        first = derived(edge)
-        unit = product(first, power([x.real for x in product(first, conjugate(first))], -0.5))
-        return [x + 1j * self.distance * u for x, u in zip(edge, unit, strict=False)]
+        return [x + 1j * self.distance * u for x, u in zip(edge, unit(derived(edge)), strict=False)]
 
     def _edge(self, t: ArrayLike, order: int) -> Series:
         at = np.asarray(t, dtype=float)
@@ -96,8 +94,8 @@ class DevelopedEdge(BoundedSpan, Record):
         half = (high - low) / 2
         with np.errstate(all="ignore"):
             least = np.abs(self._edge((low + high) / 2, 1)[1]) - half * 2 * edge[2]
-            unit = unit_majorant(derived(edge), least)
-            moved = [x + abs(self.distance) * u for x, u in zip(edge, unit, strict=False)]
+            normal = unit_majorant(derived(edge), least)
+            moved = [x + abs(self.distance) * u for x, u in zip(edge, normal, strict=False)]
         return [np.where((least > 0) & np.isfinite(x), x, math.inf) for x in moved]
 
     def offset(self, distance: float) -> DevelopedEdge:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.base.roots import halved
-from geometry.base.series import About, Series, conjugate, derived, product, quotient, sharpened
+from geometry.base.series import About, Series, argument, conjugate, derived, product, sharpened
 from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.cams.plane.disk import DiskCam, FollowerKind, check_radius
 from geometry.cams.plane.lost_lift import greatest_value
@@ -68,8 +68,7 @@ class CouplerMount(Record):
         """theta, the coupler's angle, rad."""
         turn = self.linkage.pose(s)[1]
         with np.errstate(invalid="ignore"):
-            rate = quotient(derived(turn), turn)
-        return [np.angle(turn[0]), *(x.imag / (k + 1) for k, x in enumerate(rate))]
+            return argument(turn)
 
     def face(self, s: Series) -> tuple[Series, Series]:
         """Distance of the face from the axis, Re(z conj(N)), and the angle of its normal N, rad."""
@@ -77,8 +76,7 @@ class CouplerMount(Record):
         normal = [cmath.exp(1j * self.direction) * e for e in turn]
         centre = [a + self.point * e for a, e in zip(joint, turn, strict=True)]
         with np.errstate(invalid="ignore"):
-            rate = quotient(derived(turn), turn)
-        angle = [np.angle(normal[0]), *(x.imag / (k + 1) for k, x in enumerate(rate))]
+            angle = [np.angle(normal[0]), *argument(turn)[1:]]
         return [x.real for x in product(centre, conjugate(normal))], angle
 
     def face_bound(self, s: Series, about: About | None = None) -> tuple[Series, Series]:

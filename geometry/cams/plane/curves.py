@@ -19,15 +19,14 @@ from geometry.base.series import (
     FACTORIALS,
     About,
     Series,
-    conjugate,
     derived,
     exponential,
     majorant_power,
-    power,
     product,
     quotient,
     sharpened,
     taylor,
+    unit,
     unit_majorant,
 )
 from geometry.curves.bounds import BoundedSpan
@@ -163,9 +162,7 @@ class CentreEnvelope(CamSpan, Record):
         at = np.asarray(t, dtype=float)
         centre, velocity = self._fixed(at, order)
         if self.distance:
-            square = [x.real for x in product(velocity, conjugate(velocity))]
-            unit = product(velocity, power(square, -0.5))
-            centre = [x + 1j * self.distance * y for x, y in zip(centre, unit, strict=False)]
+            centre = [x + 1j * self.distance * y for x, y in zip(centre, unit(velocity), strict=False)]
         return self._in_cam(centre[: order + 1], at)
 
     def pitch_curvature(self, t: ArrayLike) -> Real:
@@ -207,10 +204,10 @@ class CentreEnvelope(CamSpan, Record):
             # |w| is above its value at the middle less half the interval times the bound of |w'|
             least = np.abs(at_middle[1][0]) - half * velocity[1]
             with np.errstate(divide="ignore", invalid="ignore"):
-                unit = unit_majorant(velocity, least)
-            unit[0] = np.ones(np.shape(a))
-            unit = [abs(self.distance) * np.where(least > 0, x, np.inf) for x in unit]
-            centre = [x + y for x, y in zip(centre, unit, strict=False)]
+                normal = unit_majorant(velocity, least)
+            normal[0] = np.ones(np.shape(a))
+            normal = [abs(self.distance) * np.where(least > 0, x, np.inf) for x in normal]
+            centre = [x + y for x, y in zip(centre, normal, strict=False)]
         return self._in_cam(centre[: order + 1], None)
 
 
