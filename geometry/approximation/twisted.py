@@ -10,6 +10,7 @@ height. The exact section's height over its chord lies between 0 and the chord's
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,17 +118,7 @@ def _finished(
     # a vertex at the start of a short edge goes; its neighbours move by less than that edge
     kept = ~short if short.any() and not short.all() else np.full(len(vertices), True)
     contour = Contour(vertices[kept], np.zeros(np.count_nonzero(kept)), profile.count, profile.clockwise)
-    ends, moved = np.append(contour.vertices, contour.period_ends()[-1]), 0.0 if kept.all() else slack
-    for _ in range(_MOST_SHRINKS):
-        worst = moved
-        for sense in (1, -1):
-            rising = rising_diagonals(contour, sense * step)
-            found = _errors(ends, chords[kept], bend[kept], rising, sense * step)
-            worst = max(worst, float(found.max()) + moved)
-        if worst <= tolerance:
-            return Approximation(contour, worst, "certified", tolerance, step)
-        step *= 0.95
-    raise ConvergenceError("slices for the tolerance", worst, _MOST_SHRINKS)
+    return _sliced(contour, chords[kept], [bend[kept]], 0.0 if kept.all() else slack, step, tolerance)
 
 
 def slices_over(contour: Contour, error: float, tolerance: float) -> Approximation:
@@ -138,13 +129,25 @@ def slices_over(contour: Contour, error: float, tolerance: float) -> Approximati
     ConvergenceError
         The chords leave too little of the tolerance to the slices.
     """
+    farthest = float(np.abs(np.append(contour.vertices, contour.period_ends()[-1])).max())
+    return _sliced(contour, error, [1, -1], 0.0, math.sqrt(8 * (tolerance - error) / farthest), tolerance)
+
+
+def _sliced(
+    contour: Contour, chords: Real | float, bends: Sequence[Real | int], moved: float, step: float, tolerance: float
+) -> Approximation:
+    """A contour whose errors of chords, mm, bend so, with the greatest step up to one that keeps the tolerance.
+
+    ``moved``: what its vertices are off besides, mm.
+    """
     ends = np.append(contour.vertices, contour.period_ends()[-1])
-    step = math.sqrt(8 * (tolerance - error) / float(np.abs(ends).max()))
     for _ in range(_MOST_SHRINKS):
-        worst = 0.0
+        worst = moved
         for sense in (1, -1):
             rising = rising_diagonals(contour, sense * step)
-            worst = max(worst, *(float(_errors(ends, error, bend, rising, sense * step).max()) for bend in (1, -1)))
+            for bend in bends:
+                found = _errors(ends, chords, bend, rising, sense * step)
+                worst = max(worst, float(found.max()) + moved)
         if worst <= tolerance:
             return Approximation(contour, worst, "certified", tolerance, step)
         step *= 0.95
