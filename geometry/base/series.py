@@ -34,6 +34,11 @@ def conjugate(a: Sequence[Any]) -> Series:
     return [np.conj(x) for x in a]
 
 
+def affine(start: Any, way: Any, a: Sequence[Any]) -> Series:
+    """Coefficients of start + way a."""
+    return [start + way * a[0], *(way * x for x in a[1:])]
+
+
 def derived(a: Sequence[Any]) -> Series:
     """Coefficients of the derivative, one fewer."""
     return [(k + 1) * a[k + 1] for k in range(len(a) - 1)]

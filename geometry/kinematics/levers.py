@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.base.roots import crests, tops
-from geometry.base.series import Series, conjugate, derived, modulus_square, power, product, unit
+from geometry.base.series import Series, affine, conjugate, derived, modulus_square, power, product, unit
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.linkage import cosine_range
 
@@ -149,9 +149,9 @@ class Levers(Record):
             joint = _joined(end, self.first)
             links = {"2": unit(_minus(joint, end)), "3": unit(_from(joint, self.first.pivot))}
             lever = links["3"]
-        points = {"A": end, "B": _along(lever, self.lever, self.first.pivot)}
+        points = {"A": end, "B": affine(self.first.pivot, self.lever, lever)}
         if self.second is not None:
-            own = _along(lever, self.arm, self.first.pivot)
+            own = affine(self.first.pivot, self.arm, lever)
             points["C"] = own
             if isinstance(self.second, Slider):
                 points["D"], links["4"] = _slid(own, self.second)
@@ -412,11 +412,6 @@ def _from(point: Series, pivot: complex) -> Series:
 
 def _minus(one: Series, two: Series) -> Series:
     return [a - b for a, b in zip(one, two, strict=True)]
-
-
-def _along(direction: Series, by: complex, pivot: complex) -> Series:
-    """The point that lies ``by`` from a pivot in the frame of a link."""
-    return [pivot + by * direction[0], *(by * d for d in direction[1:])]
 
 
 def _slid(joint: Series, slider: Slider) -> tuple[Series, Series]:

@@ -17,6 +17,7 @@ from geometry.base.record import Record, replace
 from geometry.base.series import (
     About,
     Series,
+    affine,
     exponential,
     majorant_power,
     modulus_square,
@@ -65,12 +66,12 @@ class RockerDrive(Record):
     def joint(self, s: Series) -> Series:
         """Joint A, complex, mm."""
         turn = exponential([1j * (self.start_angle + self.sense * s[0]), *(1j * self.sense * x for x in s[1:])])
-        return [self.pivot + self.length * turn[0], *(self.length * x for x in turn[1:])]
+        return affine(self.pivot, self.length, turn)
 
     def joint_bound(self, s: Series) -> Series:
         """Bounds of the moduli of that series from those of S."""
         turn = exponential([0.0 * s[0], *s[1:]])
-        return [abs(self.pivot) + self.length * turn[0], *(self.length * x for x in turn[1:])]
+        return affine(abs(self.pivot), self.length, turn)
 
     def _angles(self, low: float, high: float, direction: float) -> tuple[float, float]:
         return self.start_angle + self.sense * low - direction, self.start_angle + self.sense * high - direction
@@ -99,7 +100,7 @@ class SliderDrive(Record):
     def joint(self, s: Series) -> Series:
         """Joint A, complex, mm."""
         way = cmath.exp(1j * self.direction)
-        return [self.start + way * s[0], *(way * x for x in s[1:])]
+        return affine(self.start, way, s)
 
     def joint_bound(self, s: Series) -> Series:
         """Bounds of the moduli of that series from those of S."""

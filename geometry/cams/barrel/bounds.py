@@ -13,6 +13,7 @@ import numpy as np
 
 from geometry.base.series import (
     Series,
+    affine,
     derived,
     exponential,
     inverse_modulus_majorant,
@@ -90,10 +91,7 @@ def _place_bounds(cam: BarrelCam, piece: LawPiece, order: int, a: Real, b: Real)
         return place, [0.0 * x for x in place], _least_rise(at, place, half)
     # of exp(i psi): psi itself counts for nothing
     turn = exponential([0.0 * s[0], *s[1:]])
-    place = [
-        0.0 * s[0] + abs(guide.pivot_offset) + abs(guide.pivot_height) + guide.arm_length,
-        *(guide.arm_length * x for x in turn[1:]),
-    ]
+    place = affine(abs(guide.pivot_offset) + abs(guide.pivot_height), guide.arm_length, turn)
     aside = sharpened(place, [x.real for x in at], half)
     place = sharpened(place, at, half)
     return place, aside, _least_rise(at, place, half)

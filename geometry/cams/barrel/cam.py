@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record, replace
-from geometry.base.series import Series, argument, derived, exponential, modulus_square, power, product, taylor
+from geometry.base.series import Series, affine, argument, derived, exponential, modulus_square, power, product, taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, PhaseKind
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
@@ -68,8 +68,7 @@ class SwingGuide(Record):
         """p = d + i z_p - L exp(-i psi), the arm pointing to -y; mirrored where d < 0."""
         sense = math.copysign(1.0, self.pivot_offset)
         turn = exponential([-1j * sense * x for x in (self.start_angle + s[0], *s[1:])])
-        arm = -sense * self.arm_length
-        return [complex(self.pivot_offset, self.pivot_height) + arm * turn[0], *(arm * x for x in turn[1:])]
+        return affine(complex(self.pivot_offset, self.pivot_height), -sense * self.arm_length, turn)
 
     def raised(self, height: float) -> SwingGuide:
         """The guide moved up, mm."""

@@ -10,7 +10,7 @@ import math
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
-from geometry.base.series import About, Series, derived, exponential
+from geometry.base.series import About, Series, affine, derived, exponential
 from geometry.curves.curve import Complex
 from geometry.laws.piece import Real
 
@@ -64,12 +64,12 @@ class Oscillating(Record):
     def centre(self, s: Series) -> Series:
         """Path of the arm's end: d - L exp(-i sense psi)."""
         turn = exponential([-1j * self.sense * x for x in (self.start_angle + s[0], *s[1:])])
-        return [self.centre_distance - self.arm_length * turn[0], *(-self.arm_length * x for x in turn[1:])]
+        return affine(self.centre_distance, -self.arm_length, turn)
 
     def centre_bound(self, s: Series, about: About | None = None) -> Series:
         """Bounds of the moduli of that series from those of S."""
         turn = exponential([0.0 * s[0], *s[1:]])
-        return [self.centre_distance + self.arm_length * turn[0], *(self.arm_length * x for x in turn[1:])]
+        return affine(self.centre_distance, self.arm_length, turn)
 
     def face(self, s: Series) -> tuple[Series, Series]:
         """Distance d sin psi - f of the face from the axis, and the angle of its normal away from the axis, rad."""

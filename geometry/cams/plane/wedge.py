@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import last_that_holds
 from geometry.base.record import Record
-from geometry.base.series import Series, derived, exponential, taylor
+from geometry.base.series import Series, affine, derived, exponential, taylor
 from geometry.cams.motion.follower_motion import Phase, PieceMotion, pieces_of
 from geometry.cams.plane.curves import CentreEnvelope, Lift
 from geometry.cams.plane.disk import FollowerKind
@@ -79,13 +79,12 @@ class Swinging(Record):
     def centre(self, s: Series) -> Series:
         """Path of the arm's end: pivot - side L exp(-i side psi)."""
         turn = exponential([-1j * self.side * x for x in (self.start_angle + s[0], *s[1:])])
-        arm = -self.side * self.arm_length
-        return [self.pivot + arm * turn[0], *(arm * x for x in turn[1:])]
+        return affine(self.pivot, -self.side * self.arm_length, turn)
 
     def centre_bound(self, s: Series, about: object = None) -> Series:
         """Bounds of the moduli of that series from those of S."""
         turn = exponential([0.0 * s[0], *s[1:]])
-        return [abs(self.pivot) + self.arm_length * turn[0], *(self.arm_length * x for x in turn[1:])]
+        return affine(abs(self.pivot), self.arm_length, turn)
 
     def place(self, centre: Complex) -> tuple[Real, Real]:
         """The travel t and S at which the arm's end stands there in the plate's frame; not a number: nowhere."""
