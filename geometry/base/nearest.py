@@ -17,12 +17,13 @@ MOST_TRIALS = 40
 _NOTHING, _FINE, _ALIKE = 0.01, 1e-7, 4.0
 
 
-def kept(holds: Callable[[V], bool], value: V) -> bool:
-    """What ``holds`` judges of a value; a ``GeometryError`` of it is a no."""
+def kept(holds: Callable[[V], object], value: V) -> bool:
+    """What ``holds`` judges of a value, a check by None; a ``GeometryError`` of it is a no."""
     try:
-        return holds(value)
+        found = holds(value)
     except GeometryError:
         return False
+    return found is None or bool(found)
 
 
 def nearest(
@@ -140,13 +141,8 @@ class Suspect(Record):
 
 def blamed(suspects: Iterable[Suspect], first: str) -> Suspect | None:
     """The first suspect that alone can cure a refusal, the one named ``first`` before the others; else None."""
-    for suspect in sorted(suspects, key=lambda s: s.name != first):
-        try:
-            if suspect.value != suspect.harmless and suspect.works(suspect.harmless):
-                return suspect
-        except GeometryError:
-            continue
-    return None
+    ordered = sorted(suspects, key=lambda s: s.name != first)
+    return next((s for s in ordered if s.value != s.harmless and kept(s.works, s.harmless)), None)
 
 
 def last_that_holds(holds: Callable[[float], object], fails: float, works: float = 0.0, steps: int = 24) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc
@@ -151,11 +152,7 @@ class HubHoles(Record):
 
     def fits(self, root_radius: float) -> bool:
         """Whether ``check`` finds no fault."""
-        try:
-            self.check(root_radius)
-        except ParameterError:
-            return False
-        return True
+        return kept(self.check, root_radius)
 
     def groups(self) -> list[tuple[str, RoundHoles]]:
         """Groups of round holes with the names of their tables."""

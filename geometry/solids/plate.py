@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
-from geometry.base.nearest import moved
+from geometry.base.nearest import kept, moved
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Flags, Real, end_point, start_point
@@ -109,11 +109,7 @@ class PlateOutline(Record):
 
     def exists(self, offset: float = 0.0) -> bool:
         """Whether there is such a section."""
-        try:
-            self._region(offset)
-        except GeometryError:
-            return False
-        return True
+        return kept(self._region, offset)
 
     def _region(self, offset: float) -> Region:
         edges = moved_edges(self.edges, offset)

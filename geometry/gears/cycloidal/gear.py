@@ -18,14 +18,13 @@ from functools import lru_cache, partial
 
 from geometry.base.errors import (
     CuspError,
-    GeometryError,
     OffsetError,
     ParameterError,
     PointedTipError,
     limit,
 )
 from geometry.base.findings import Finding, short_of
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
@@ -384,11 +383,7 @@ def _has_root(gear: CycloidalGear) -> bool:
         return False
     if gear.root_rounding > gear.greatest_rounding * (1 + _MARGIN):
         return False
-    try:
-        cycloidal_side(gear)
-    except GeometryError:
-        return False
-    return True
+    return kept(cycloidal_side, gear)
 
 
 def cycloidal_findings(gear: CycloidalGear) -> tuple[Finding, ...]:

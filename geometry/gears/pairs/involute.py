@@ -18,8 +18,9 @@ from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 import numpy as np
 
 from geometry.base.angles import inverse_involute, involute_function, tangent_length
-from geometry.base.errors import GeometryError, Nearest, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
+from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES, is_told
 from geometry.curves.curve import Real
@@ -339,10 +340,8 @@ class InvolutePair(Record, Generic[G, S], dict=True):
     def _can_end(self, index: int, tip_radius: float) -> bool:
         """Whether one of the gears can have a tip radius, mm."""
         gear: Any = replace(self.gears[index], given_tip_diameter=2 * tip_radius)
-        try:
-            return bool((replace(self, second=gear) if index else replace(self, first=gear)).sides[index])
-        except GeometryError:
-            return False
+        pair = replace(self, second=gear) if index else replace(self, first=gear)
+        return kept(lambda index: pair.sides[index], index)
 
     def margins(self) -> tuple[Margin, ...]:
         """The pair's own limits, each with its margin (>= 0 where kept); practicum 3.1, blocking contours.

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
-from geometry.base.errors import GeometryError, LateError, Nearest, ParameterError, UndercutError, limit
+from geometry.base.errors import LateError, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding, short_of
-from geometry.base.nearest import Suspect, blamed, nearest
+from geometry.base.nearest import Suspect, blamed, kept, nearest
 from geometry.base.record import Record, replace, with_value
 from geometry.base.tolerance import TOLERANCES, is_told
 from geometry.curves.involute import Involute
@@ -203,21 +203,15 @@ def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
 
 def exists(gear: SpurGear, helix_angle: float = 0.0) -> bool:
     """Whether ``checked_gear`` has nothing to say, without its search for what is to blame."""
-    try:
-        _check_numbers(gear)
-    except ParameterError:
+    if not kept(_check_numbers, gear):
         return False
     section = transverse_gear(gear, helix_angle)
     return (gear.bore_diameter <= 0 or root_below_bore(section).margin > 0) and _builds(section)
 
 
 def _builds(section: SpurGear) -> bool:
-    try:
-        check_shaping(section)
-        tooth_side(section)
-    except GeometryError:
-        return False
-    return section.holes.fits(section.root_radius)
+    makes = kept(check_shaping, section) and kept(tooth_side, section)
+    return makes and section.holes.fits(section.root_radius)
 
 
 def in_normal_modules(refusal: ParameterError, helix_angle: float) -> ParameterError:
