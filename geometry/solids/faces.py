@@ -172,7 +172,11 @@ class SolidBuilder:
 
     def place(self, vertices: Index) -> Real:
         """Where vertices stand, (n, 3) mm."""
-        return np.concatenate(self.points)[np.concatenate(self.vertices)[vertices]]
+        return np.concatenate(self.points)[self.points_of(vertices)]
+
+    def points_of(self, vertices: Index) -> Index:
+        """The numbers of the points that vertices are."""
+        return np.concatenate(self.vertices)[vertices]
 
     def add_vertices(self, points: Index) -> Index:
         """The numbers of new vertices at points (n,)."""

@@ -681,7 +681,7 @@ class _Turned(RingBuilder):
         z, y = poles[1:-1].T
         places = flat.floor * out[0] + y[:, None] * across
         inner = self.add_points(places[:, 0] + 1j * places[:, 1], z)
-        points = np.concatenate([self.vertex_point(one[0]), inner, self.vertex_point(two[0])])
+        points = np.concatenate([self.points_of(one), inner, self.points_of(two)])
         return self.add_edges(one, two, Spline(_DEGREE, knots, points[None]))
 
     def _seam(self, piece: Piece) -> Straight | Circular:
@@ -743,14 +743,14 @@ class _Turned(RingBuilder):
             normal = ways[after]
             below: Straight | Circular = Straight(way)
             above: Straight | Circular | Spline = Straight(way)
-            wall: Plane | Cylinder = Plane(Frame(self.vertex_point(floor[k]), normal, across if is_end else UP))
+            wall: Plane | Cylinder = Plane(Frame(self.points_of(floor[k : k + 1]), normal, across if is_end else UP))
             if is_end and pocket.round_ends:
                 middle = at(np.zeros(1), pocket.floor, np.array([end]))
                 knots, rounded, error = _rim(half, radius)
                 self.error = max(self.error, error)
                 way_out = 1.0 if k == 1 else -1.0
                 inner = at(way_out * rounded[1:-1, 0], rounded[1:-1, 2], end + way_out * rounded[1:-1, 1])
-                poles = np.concatenate([self.vertex_point(rim[k]), inner, self.vertex_point(rim[after])])
+                poles = np.concatenate([self.points_of(rim[k : k + 1]), inner, self.points_of(rim[after : after + 1])])
                 below, above = Circular(Frame(middle, out, -way), half), Spline(_DEGREE, knots, poles[None])
                 wall = Cylinder(Frame(middle, out, across), half)
             elif is_end:
@@ -761,13 +761,9 @@ class _Turned(RingBuilder):
             low, high = (edges[0][k], False), (edges[1][k], True)
             around = [low, (ups[k : k + 1], True), high, (ups[after : after + 1], False)]
             self.bounded(wall, around, along=isinstance(wall, Plane))
-        floor_plane = Plane(Frame(self.vertex_point(floor[0]), out, UP))
+        floor_plane = Plane(Frame(self.points_of(floor[:1]), out, UP))
         self.bounded(floor_plane, [(edge, True) for edge in edges[0]])
         return loop_of(turned_over([(edge, True) for edge in edges[1]]))
-
-    def vertex_point(self, vertex: int) -> Index:
-        """The point of a vertex."""
-        return np.concatenate(self.vertices)[vertex : vertex + 1]
 
     def close(self) -> None:
         """The plane faces with the holes in them."""

@@ -190,7 +190,7 @@ class CutThreads(WormRings):
             grid = self._points(side, line, greville(DEGREE, u_knots), v)
             poles = axis_poles(DEGREE, self.knots.around, axis_poles(DEGREE, u_knots, grid, 1), 2)
             columns = np.concatenate([poles[:, 1:-1, 0], poles[-1:, 1:-1, -1]])
-            own, after = (self.solid_points(corners[i]) for i in (k, k + 1))
+            own, after = (self.points_of(corners[i]) for i in (k, k + 1))
             lines = np.concatenate([own[..., None], self.placed(columns), after[..., None]], axis=2)
             edges = self._splines(corners[k], corners[k + 1], u_knots, lines, slice(first, first + self.steps + 1))
             across.append(edges)
@@ -225,10 +225,6 @@ class CutThreads(WormRings):
             ends = start[:, own].ravel(), end[:, own].ravel()
             made.append(self.add_edges(*ends, shape).reshape(start[:, own].shape))
         return np.concatenate(made, axis=1)
-
-    def solid_points(self, vertices: Index) -> Index:
-        """The points that vertices are."""
-        return np.concatenate(self.vertices)[vertices]
 
     def lands(self) -> None:
         """The tip cylinder of every thread."""

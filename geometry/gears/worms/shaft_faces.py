@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
@@ -123,7 +124,7 @@ class WormRings(RingBuilder):
             # as seen from the end
             outer = self.rims[end] if self.worm.sign > 0 else turned_over(self.rims[end])
             for before, after in pairwise(points):
-                ring = self.ring(_whole(after[1]), after[0], self._first_angle(outer))
+                ring = self.ring(_whole(after[1]), after[0], cmath.phase(self._start(outer)))
                 if before[0] == after[0]:
                     self._level(
                         after[0], outer, [(e, True) for e in ring.edges], up=(after[1] < before[1]) == (end > 0)
@@ -135,9 +136,10 @@ class WormRings(RingBuilder):
             loops = [_loop(outer, left=end > 0)]
             self.cap(points[-1][0], loops if inner is None else [*loops, inner], up=end > 0)
 
-    def _first_angle(self, outer: list[Use]) -> float:
-        x, y, _ = self.place(self._first(outer))[0]
-        return math.atan2(y, x)
+    def _start(self, outer: list[Use]) -> complex:
+        """Where a ring begins, x + iy."""
+        x, y, _ = self.place(self._first(outer))[0].tolist()
+        return complex(x, y)
 
     def _first(self, outer: list[Use]) -> Index:
         """The vertex (1,) at which a ring begins."""
@@ -151,14 +153,8 @@ class WormRings(RingBuilder):
 
     def _level(self, z: float, outer: list[Use], inner: list[Use], *, up: bool) -> None:
         """A plane ring between two circles."""
-        wide, narrow = outer, inner
-        if self._radius(outer) < self._radius(inner):
-            wide, narrow = inner, outer
+        narrow, wide = sorted((inner, outer), key=lambda ring: abs(self._start(ring)))
         self.cap(z, [_loop(wide, left=up), _loop(narrow, left=not up)], up=up)
-
-    def _radius(self, outer: list[Use]) -> float:
-        x, y, _ = self.place(self._first(outer))[0]
-        return math.hypot(x, y)
 
     def _round(
         self, before: tuple[float, float], after: tuple[float, float], outer: list[Use], ring: Ring, end: int
