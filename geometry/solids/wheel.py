@@ -8,6 +8,7 @@ from functools import cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from geometry.base.both import both
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record
@@ -176,51 +177,42 @@ class _Wheel:
         self.hub_circle = circle(hub.diameter / 2 + offset, Label.HUB) if hub else None
         recess = web is not None and self.web != self.rim
         self.rim_circle = circle(web.rim_diameter / 2 - offset, Label.RIM, hole=True) if web and recess else None
+        # on each side: whether the web lies below the rim, and the hub stands out of the web
+        self.recessed = both(web != rim for web, rim in zip(self.web, self.rim, strict=True))
+        self.stepped = both(hub != web for hub, web in zip(self.hub, self.web, strict=True))
         self.made = BodyBuilder()
         self.holes: list[tuple[int, int]] = []
 
     def body(self) -> Body:
         """Walls first, then the caps of both sides."""
-        recessed = self._recessed
+        whole = both(not recessed for recessed in self.recessed)
         around, within = (None, self.twist) if self.sections.toothed_bore else (self.twist, None)
         if self.sections.rim is not None:
             outline = self.sections.rim(self.made, self.offset)
         else:
             outline = self._run(self.sections.outline, self.rim, (True, True), "outline", around)
-        self.holes = [
-            self._run(hole, self.web, (not recessed(0), not recessed(1)), "hole") for hole in self.sections.holes
-        ]
+        self.holes = [self._run(hole, self.web, whole, "hole") for hole in self.sections.holes]
         bore = None
         if self.sections.bore is not None:
             # a bore that ends in the floor of a recess has no chamfer there
-            ends = (self._is_end(0), self._is_end(1))
+            ends = both(stepped or flush for stepped, flush in zip(self.stepped, whole, strict=True))
             who = "outline" if self.sections.toothed_bore else "bore"
             bore = self._run(self.sections.bore, self.hub, ends, who, within)
         for side in (0, 1):
             self._side(side, outline[side], None if bore is None else bore[side])
         return self.made.body()
 
-    def _recessed(self, side: int) -> bool:
-        return self.web[side] != self.rim[side]
-
-    def _stepped(self, side: int) -> bool:
-        """Whether the hub stands out of the web on a side."""
-        return self.hub[side] != self.web[side]
-
-    def _is_end(self, side: int) -> bool:
-        return self._stepped(side) or not self._recessed(side)
-
     def _side(self, side: int, outline: int, bore: int | None) -> None:
         """The caps of one side, and the walls of rim and hub that stand between them."""
         up = side == 1
         inside = [] if bore is None else [bore]
-        if self._stepped(side):
+        if self.stepped[side]:
             assert self.hub_circle is not None
             foot, end = self._step(self.hub_circle, side, self.web[side], self.hub[side])
             self.made.cap(end, inside, up=up)
             inside = [foot]
         inside += [hole[side] for hole in self.holes]
-        if self._recessed(side):
+        if self.recessed[side]:
             assert self.rim_circle is not None
             foot, end = self._step(self.rim_circle, side, self.web[side], self.rim[side])
             self.made.cap(foot, inside, up=up)
