@@ -58,14 +58,12 @@ class _Chords(Draft):
             worst = float(np.minimum(*both).max())
             if worst <= tolerance:
                 return count
-            if count > 8 and worst > 0.999 * self._floor(points, step) and worst < self._floor(points, step) * 1.001:
+            # what the slices alone cost
+            floor = float(np.abs(points).max()) * step**2 / 8
+            if count > 8 and 0.999 * floor < worst < floor * 1.001:
                 return None
             count = max(count + 1, math.floor(count * min(1.5, math.sqrt(worst / tolerance))))
         return None
-
-    def _floor(self, points: Complex, step: float) -> float:
-        """What the slices alone cost, mm."""
-        return float(np.abs(points).max()) * step**2 / 8
 
 
 def approximate_twisted(profile: Profile, tolerance: float, least_edge: float = 0.0) -> Approximation:

@@ -25,7 +25,7 @@ rational module keeps rational. ``geometry/kinematics/moving.py`` moves such a m
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Literal
 
@@ -487,7 +487,9 @@ def turns(mechanism: Mechanism, drives: Iterable[str] = ()) -> Turns:
     found = eliminated(table, known)
     for index, rest in found.left.items():
         if not leads.issuperset(rest):
-            causes = _causes([rows[k].source for k in follows_from(table, index, known)])
+            # other drives and held links; else the meshes
+            sources = [rows[k].source for k in follows_from(table, index, known)]
+            causes = [s for s in sources if isinstance(s, str)] or [_name(s) for s in sources]
             raise ParameterError("drives", _name(rows[index].source), "contradicts", None, by=causes)
     values: dict[str, Row[str]] = {name: {name: Fraction(1)} for name in given} | dict(found.solved)
     shares: dict[str, Row[str]] = {FRAME: {}}
@@ -509,11 +511,6 @@ def _known(drive: str) -> str:
 
 def _name(source: Rolling | str) -> str:
     return source if isinstance(source, str) else f"{source.first}-{source.second}"
-
-
-def _causes(sources: Sequence[Rolling | str]) -> list[str]:
-    """By what a drive is held: other drives and held links; else the meshes."""
-    return [s for s in sources if isinstance(s, str)] or [_name(s) for s in sources]
 
 
 # ratios that stand for the law of a group, which no teeth give

@@ -18,7 +18,7 @@ from geometry.base.roots import halved
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.distance import Flags
-from geometry.plane.profile import Label, Profile
+from geometry.plane.profile import Label
 from geometry.solids.body import Body, Wall
 from geometry.solids.bores import FlatBore
 from geometry.solids.turned import HalfSection, Pocket
@@ -237,7 +237,7 @@ def sketch_of_body(body: Body, teeth: Teeth | None = None) -> Sketch:
         low, high = body.height(wall)
         placement = body.loops[wall.lower if z - low < high - z else wall.upper].placement
         profile = body.section(wall, z) if body.is_chamfer(wall) else body.loop_profile(wall.lower)
-        if teeth is not None and _is_toothed(profile):
+        if teeth is not None and profile.count > 1 and any(s.label is Label.FLANK for s in profile.period):
             return round_ring(teeth.tip, teeth.root)
         curves = tuple(s.curve.placed(placement) for s in profile.segments())
         if len(circles := {(c.centre, c.radius) for c in curves if isinstance(c, Arc)}) == 1 and len(curves) == 2:
@@ -260,10 +260,6 @@ def sketch_of_body(body: Body, teeth: Teeth | None = None) -> Sketch:
         if any(body.is_chamfer(w) for w in walls):
             creases += [low, high]
     return Sketch(tuple(layers), tuple(creases), None if teeth is None else teeth.pitch)
-
-
-def _is_toothed(profile: Profile) -> bool:
-    return profile.count > 1 and any(s.label is Label.FLANK for s in profile.period)
 
 
 def sketch_of_turned(section: HalfSection, *, is_shaft: bool = False) -> Sketch:

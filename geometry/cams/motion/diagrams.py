@@ -14,7 +14,7 @@ from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.base.series import FACTORIALS, Series, derived, exponential, product, taylor
 from geometry.curves.bspline import BSpline
-from geometry.curves.curve import Complex, Curve, Real, Span, curvature_from_derivatives
+from geometry.curves.curve import Complex, Curve, Real, Span, curvature_from_derivatives, end_point, start_point
 from geometry.curves.line_arc import Line
 from geometry.laws.piece import LawPiece
 
@@ -129,20 +129,21 @@ class ArmCurve(DrawnCurve, Record):
 
 def diagram(piece: LawPiece, order: int, origin: complex, along: float, up: float) -> Curve:
     """S^(order) over the cam angle on one piece; a straight line where it is one."""
-    curve = MotionCurve(piece, *piece.domain, origin, along, 0.0, up, (0, order))
-    if not piece.waves and len(piece.coefficients) - 1 - order <= 1:
-        return Line(complex(curve.point(piece.start)), complex(curve.point(piece.end)))
-    return curve
+    return _straight(MotionCurve(piece, *piece.domain, origin, along, 0.0, up, (0, order)), order + 1)
 
 
 def joint_diagram(piece: LawPiece, order: int, origin: complex, scale: float) -> Curve | None:
     """S over S^(order) on one piece, "joint diagram" of lessons 4 and 5, section 3.2; None of a dwell."""
     if piece.is_constant:
         return None
-    curve = MotionCurve(piece, *piece.domain, origin, 0.0, scale, scale, (order, 0))
-    if not piece.waves and len(piece.coefficients) - 1 - order <= 0:
-        return Line(complex(curve.point(piece.start)), complex(curve.point(piece.end)))
-    return curve
+    return _straight(MotionCurve(piece, *piece.domain, origin, 0.0, scale, scale, (order, 0)), order)
+
+
+def _straight(curve: MotionCurve, degree: int) -> Curve:
+    """The line that a curve is where its piece is a polynomial of a degree at most; else the curve."""
+    if curve.piece.waves or len(curve.piece.coefficients) - 1 > degree:
+        return curve
+    return Line(start_point(curve), end_point(curve))
 
 
 def hermite_spline(curve: Curve, tolerance: float) -> tuple[BSpline, float]:

@@ -170,7 +170,8 @@ class _Drawn(Record):
 
 def _summed(law: Law, n: int, drawing: Drawing) -> _Drawn:
     """Mid-ordinates summed twice."""
-    middles = np.array([_ordinate(law, (i + 0.5) / n) for i in range(n)])
+    # at a jump the middle of its vertical line
+    middles = np.array([(_limit(law, (i + 0.5) / n, -1) + _limit(law, (i + 0.5) / n, 1)) / 2 for i in range(n)])
     bend = np.array([(_limit(law, i / n, 1), _limit(law, (i + 1) / n, -1)) for i in range(n)])
     rate = np.concatenate([[0.0], np.cumsum(middles)]) / n
     halves = (rate[:-1] + rate[1:]) / 2
@@ -189,11 +190,6 @@ def _limit(law: Law, u: float, side: int) -> float:
     else:
         piece = next((p for p in reversed(pieces) if u > p.start + 1e-12), pieces[0])
     return float(piece.value(u, 2))
-
-
-def _ordinate(law: Law, u: float) -> float:
-    """s'' at ``u``; at a jump the middle of its vertical line."""
-    return (_limit(law, u, -1) + _limit(law, u, 1)) / 2
 
 
 def graphical_flat_radius(drawn: GraphicalMotion) -> float:

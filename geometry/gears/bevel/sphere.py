@@ -62,14 +62,11 @@ class SphericalFillet(Record):
     radius: float
     aside: float
 
-    def _centre(self, u: Real) -> Real:
-        """Azimuth of the rounding's centre on the crown gear, from the pitch line."""
-        return np.asarray(np.arcsin(math.tan(self.depth) * np.tan(u)))
-
     def turn(self, u: ArrayLike) -> Real:
         """How far the gear has turned since the crown gear's tooth stood in the middle."""
-        t = np.asarray(u, dtype=float)
-        return np.asarray((self._centre(t) - self.aside) / math.sin(self.pitch))
+        # azimuth of the rounding's centre on the crown gear, from the pitch line
+        centre = np.arcsin(math.tan(self.depth) * np.tan(np.asarray(u, dtype=float)))
+        return np.asarray((centre - self.aside) / math.sin(self.pitch))
 
     def turn_rate(self, u: ArrayLike) -> Real:
         """d turn / du."""

@@ -22,6 +22,7 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
 from geometry.gears.chains.sprocket import Sprocket, sprocket_side
 from geometry.gears.mesh.search import PairContact, flanks_contact, gear_outline
+from geometry.plane.distance import folded
 from geometry.plane.loop import DriveLoop, Wheel, about_two
 
 # rounds until a strand stands on both polygons
@@ -370,8 +371,7 @@ class ChainMesh(Record):
                 near = rollers[np.abs(rollers - axis) < sprocket.tip_radius + 2 * radius] - axis
                 # seats stand half a pitch before tooth 1
                 near = near * cmath.rect(1.0, -seat - sprocket.pitch_angle / 2)
-                near = near * np.exp(-1j * sprocket.pitch_angle * np.round(np.angle(near) / sprocket.pitch_angle))
-                feet = outlines[side].feet(np.where(near.imag > 0, np.conj(near), near))
+                feet = outlines[side].feet(folded(near, near, sprocket.pitch_angle)[0])
                 gaps[side, k] = feet.distance.min() - radius
         return flanks_contact(gaps, phases - math.pi, 0j, _CONTACT * radius if tolerance is None else tolerance)
 

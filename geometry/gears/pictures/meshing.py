@@ -53,12 +53,9 @@ class Body(Record):
         """``count`` teeth in a row and the lands at both of their ends, with contact at s."""
         at = self.place(s)
         first = -(count // 2)
-        steps = [self._stepped(k) for k in range(first - 1, first + count)]
+        steps = [Placement2(self.step.angle * k, self.step.translation * k) for k in range(first - 1, first + count)]
         curves = [c.placed(at @ k) for k in steps[1:] for c in self.tooth]
         return curves + [c.placed(at @ k) for k in steps for c in self.gap]
-
-    def _stepped(self, k: int) -> Placement2:
-        return Placement2(self.step.angle * k, self.step.translation * k)
 
     def tooth_at(self, s: float) -> list[Any]:
         """The tooth in contact at s."""

@@ -127,13 +127,9 @@ class Geneva(Record):
         alpha = np.clip(turn - whole * step, -self.half_motion_angle, self.half_motion_angle)
         return 2 * self.half_slot_angle * whole + self.motion(alpha)[0]
 
-    def driver_rotation(self, rotation: float, direction: float) -> float:
-        """``turn`` of ``wheel_turn`` at a rotation of the driver, the wheel standing in a direction from it, rad."""
-        return rotation - direction - (math.pi if self.internal else 0.0)
-
     def wheel_rotation(self, rotation: float, direction: float) -> float:
-        """Rotation of the wheel's frame, continuous, rad."""
-        turn = float(self.wheel_turn(self.driver_rotation(rotation, direction)))
+        """Rotation of the frame of the wheel, which stands in a direction from the driver, continuous, rad."""
+        turn = float(self.wheel_turn(rotation - direction - (math.pi if self.internal else 0.0)))
         return direction + math.pi + self.sense * turn
 
 

@@ -505,11 +505,8 @@ class WormTeeth(Record, dict=True):
     def thickness(self, heights: ArrayLike) -> Real:
         """Angle of the teeth at their tip at heights, rad."""
         z = np.atleast_1d(np.asarray(heights, float))
-        return self._left(self.side(z), self.side(-z))
-
-    def _left(self, lower: Side, upper: Side) -> Real:
-        """The angle between the ends of both sides, rad."""
-        return -np.angle(self.flank(lower, 1.0).plane) - np.angle(self.flank(upper, 1.0).plane)
+        lower, upper = (np.angle(self.flank(self.side(heights), 1.0).plane) for heights in (z, -z))
+        return -lower - upper
 
     def outline(self, height: float) -> Profile:
         """The section at a height as a polygon through few points of each flank and fillet, for the eye."""
