@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
+from geometry.base.errors import GeometryError, OffsetError, ParameterError
 from geometry.base.nearest import kept, moved
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
@@ -105,7 +105,7 @@ class PlateOutline(Record):
         for key, (size, room) in rooms.items():
             if not room >= _LEAST_HOLE:
                 raise ParameterError(key, size, "hole_lies_outside")
-            raise ParameterError(key, size, "hole_reaches_edge", limit(room * (1 - 1e-6), size))
+            raise ParameterError.beyond(key, size, "hole_reaches_edge", room * (1 - 1e-6))
 
     def exists(self, offset: float = 0.0) -> bool:
         """Whether there is such a section."""

@@ -113,8 +113,7 @@ def oscillating_start_angle(
         margin = 1e-6 * (high - low)
         if base_circle_radius < high - margin <= radius:
             # no base circle brings the centre of so large a roller within reach
-            least = limit(high - margin - base_circle_radius, radius)
-            raise ParameterError("radius", radius, "arm_does_not_reach", least)
+            raise ParameterError.beyond("radius", radius, "arm_does_not_reach", high - margin - base_circle_radius)
         nearest = limit((low + margin if prime_radius <= low else high - margin) - radius, base_circle_radius)
         raise ParameterError("base_circle_radius", base_circle_radius, "arm_does_not_reach", nearest)
     # law of cosines, half-angle form: no digits are lost where the arm is nearly along the line of centres

@@ -544,8 +544,7 @@ def with_room(sums: Sums, distance: float) -> tuple[float, float]:
     touching = sums.touching_distance
     if is_told(distance, touching):
         return touching, sums.angle(touching)
-    cure = limit(touching, distance, digits=_NEAREST_DIGITS)
-    raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
+    raise ParameterError.beyond("working_centre_distance", distance, "teeth_overlap", touching, digits=_NEAREST_DIGITS)
 
 
 def facing_gaps(

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from geometry.base.angles import tangent_length
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import CONTACT_TOLERANCE, is_told
@@ -183,8 +183,7 @@ def rack_pair(gear: SpurGear, rack: Rack, distance: float | None = None) -> Rack
         touching = pair.touching_distance
         if is_told(distance, touching):
             return replace(pair, distance=touching)
-        cure = limit(touching, distance, digits=6)
-        raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
+        raise ParameterError.beyond("working_centre_distance", distance, "teeth_overlap", touching, digits=6)
     return pair
 
 
