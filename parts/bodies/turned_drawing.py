@@ -473,16 +473,9 @@ def _cut_away(loop: Loop, box: Box, inner: Sequence[complex]) -> Loop:
 
 def _in_box(line: Line, box: Box, beside: float) -> tuple[float, float]:
     """From which share of a line to which it lies in a box or on its boundary."""
-    way, low, high = line.end - line.start, 0.0, 1.0
-    for at, step, least, most in (
-        (line.start.real, way.real, box.left, box.right), (line.start.imag, way.imag, box.low, box.high),
-    ):  # fmt: skip
-        if abs(step) <= beside:
-            if not least - beside <= at <= most + beside:
-                return 1.0, 0.0
-            continue
-        first, last = sorted(((least - at) / step, (most - at) / step))
-        low, high = max(low, first), min(high, last)
+    way = line.end - line.start
+    first, last = box.span(line.start, way, beside)
+    low, high = max(first, 0.0), min(last, 1.0)
     return (low, high) if (high - low) * abs(way) > beside else (1.0, 0.0)
 
 

@@ -142,17 +142,20 @@ class Box(Record):
             self.left >= other.left and self.right <= other.right and self.low >= other.low and self.high <= other.high
         )
 
-    def span(self, start: complex, way: complex) -> tuple[float, float]:
-        """Where a line lies in it, parts of its ``way`` from the start; the end stands first where it lies nowhere."""
+    def span(self, start: complex, way: complex, flat: float = _FLAT) -> tuple[float, float]:
+        """Where a line lies in it, parts of its ``way`` from the start; the end stands first where it lies nowhere.
+
+        ``flat``: what counts as no step across, and as on its boundary.
+        """
         first, last = -math.inf, math.inf
         for at, step, low, high in (
             (start.real, way.real, self.left, self.right),
             (start.imag, way.imag, self.low, self.high),
         ):
-            if abs(step) > _FLAT:
+            if abs(step) > flat:
                 one, two = sorted(((low - at) / step, (high - at) / step))
                 first, last = max(first, one), min(last, two)
-            elif not low - _FLAT <= at <= high + _FLAT:
+            elif not low - flat <= at <= high + flat:
                 last = -math.inf
         return first, last
 
