@@ -160,14 +160,21 @@ def _shares(boxes: Real, lines: Complex) -> Real:
     return np.asarray(np.minimum(last, 1.0) - np.maximum(first, 0.0))
 
 
+def _turned(lines: Complex, others: Complex) -> tuple[Complex, Complex, Complex, Real, np.ndarray]:
+    """Of lines, down, and others, across: both ways, what is between their starts, the ways' product, what is parallel.
+
+    Rows of either: both ends, what it is.
+    """
+    (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
+    u, between = u[:, None], b[None, :] - a[:, None]
+    turn = (np.conj(u) * v).imag
+    return u, v[None, :], between, turn, np.abs(turn) <= _PARALLEL * np.abs(u) * np.abs(v)
+
+
 def _crossings(lines: Complex, others: Complex, margins: Real) -> np.ndarray:
     """Which of lines, (n,), cross which of others within both; rows: both ends, what it is."""
-    (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
-    long, other = np.abs(u)[:, None], np.abs(v)[None, :]
-    u, a, b, v = u[:, None], a[:, None], b[None, :], v[None, :]
-    turn = (np.conj(u) * v).imag
-    parallel = np.abs(turn) <= _PARALLEL * long * other
-    safe, between = np.where(parallel, 1.0, turn), b - a
+    u, v, between, turn, parallel = _turned(lines, others)
+    long, other, safe = np.abs(u), np.abs(v), np.where(parallel, 1.0, turn)
     # places of the crossing along both, mm
     s, t = (np.conj(between) * v).imag / safe * long, (np.conj(between) * u).imag / safe * other
     margin = margins[lines[2].real.astype(int)][:, others[2].real.astype(int)]
@@ -176,12 +183,9 @@ def _crossings(lines: Complex, others: Complex, margins: Real) -> np.ndarray:
 
 def _costs(lines: Complex, others: Complex) -> Real:
     """Of lines, (n,), that cross others, and that lie on others; rows: both ends, what it is."""
-    (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
-    long, other = np.abs(u)[:, None], np.abs(v)[None, :]
-    u, a, b, v = u[:, None], a[:, None], b[None, :], v[None, :]
+    u, v, between, _, parallel = _turned(lines, others)
     here, there = lines[2].real.astype(int), others[2].real.astype(int)
-    crossed, between = _crossings(lines, others, _MARGINS), b - a
-    parallel = np.abs((np.conj(u) * v).imag) <= _PARALLEL * long * other
+    crossed, long = _crossings(lines, others, _MARGINS), np.abs(u)
     way = u / long
     off = np.abs((np.conj(way) * between).imag)
     ends = (np.conj(way) * between).real, (np.conj(way) * (between + v)).real
