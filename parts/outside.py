@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from msgspec import Struct
-
 from parts.base.kind import Kind
 from parts.base.mate import MateKind
 from parts.base.reasons import add_reasons, reason
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of, untold
-from parts.base.texts import Text, add_catalogue
+from parts.base.texts import add_catalogue
 from parts.mates.registry import MATES
 from parts.texts.checks import MATES as TOLD_MATES
 from parts.texts.checks import add_mates
@@ -33,9 +31,7 @@ def add_kind(kind: Kind[Any, Any], called: str = "") -> None:
     ValueError
         Its name, a code or a quantity is another one's, or ``new`` could not tell a key; nothing is added.
     """
-    _refuse_untold(kind.name, kind.keys, "of")
-    _refuse_taken({kind.name: kind}, {kind.name: KINDS[kind.name]} if kind.name in KINDS else {})
-    _refuse_taken(kind.reasons, _told(kind.reasons))
+    _refuse(kind, KINDS, "of")
     _refuse_taken(kind.findings, FINDINGS)
     _refuse_taken(kind.quantities, QUANTITIES)
     KINDS.add(kind.name, kind, phrase_of(kind.keys), called)
@@ -52,25 +48,21 @@ def add_mate(kind: MateKind[Any, Any, Any]) -> None:
     ValueError
         Its name or a code is another one's, or ``new`` could not tell a key; nothing is added.
     """
-    _refuse_untold(kind.name, kind.keys, "first", "second")
+    _refuse(kind, MATES, "first", "second")
     told = {kind.name: kind.told} if kind.told else {}
-    _refuse_taken({kind.name: kind}, {kind.name: MATES[kind.name]} if kind.name in MATES else {})
-    _refuse_taken(kind.reasons, _told(kind.reasons))
     _refuse_taken(told, TOLD_MATES)
     MATES.add(kind.name, kind, phrase_of(kind.keys))
     add_reasons(kind.reasons)
     add_mates(told)
 
 
-def _refuse_untold(name: str, keys: type[Struct], *named: str) -> None:
-    """Refuse keys of which ``new`` could tell nothing; ``named`` ones hold a name of the scene's."""
-    if found := next(untold(keys, named), None):
-        raise ValueError(f"kind {name}: {found}")
-
-
-def _told(codes: Mapping[str, Text]) -> dict[str, Text]:
-    """What is said of those codes already; one without a sentence is told as it is."""
-    return {code: said for code in codes if (said := reason(code)) != code}
+def _refuse(kind: Kind[Any, Any] | MateKind[Any, Any, Any], known: Mapping[str, object], *named: str) -> None:
+    """Refuse keys of which ``new`` could tell nothing, ``named`` ones hold a name of the scene's; and names in use."""
+    if found := next(untold(kind.keys, named), None):
+        raise ValueError(f"kind {kind.name}: {found}")
+    _refuse_taken({kind.name: kind}, known)
+    # a code without a sentence is told as it is
+    _refuse_taken(kind.reasons, {code: said for code in kind.reasons if (said := reason(code)) != code})
 
 
 def _refuse_taken(own: Mapping[str, object], known: Mapping[str, object]) -> None:
