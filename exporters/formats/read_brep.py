@@ -119,6 +119,11 @@ class Followed:
         references = np.array(list(map(int, numbers.split(b",") if numbers else ())), dtype=np.int64)
         return self.found(references, kinds, np.repeat(who, counts)), counts
 
+    def poles(self, texts: Sequence[bytes], who: Index) -> tuple[Real, Index, Index]:
+        """Places of points in such lists, one list behind the other, how many each has, and where each begins."""
+        flat, sizes = self.lists(texts, _POINTS, who)
+        return self.rows(*_POINTS)[flat], sizes, np.cumsum(sizes) - sizes
+
     def points(self, references: Real | Index, who: Index) -> Real:
         """Places of points, (n, 3)."""
         return self.rows(*_POINTS)[self.found(references, _POINTS, who)]
@@ -292,9 +297,7 @@ def _splines(read: Followed, spline: Index, sense: Flags, counts: Index) -> list
     """The curves that are splines, by their knots: numbers, against which sense, and poles; ``counts`` gets spans."""
     if not (listed := read.entities.listed_of(_SPLINES)):
         return []
-    flat, sizes = read.lists([row[1] for row in listed], _POINTS, read.ids(_SPLINES))
-    first = np.cumsum(sizes) - sizes
-    poles = read.rows(*_POINTS)[flat]
+    poles, sizes, first = read.poles([row[1] for row in listed], read.ids(_SPLINES))
     groups = defaultdict[Row, list[int]](list)
     for number, (degree, _, closed, often, at) in enumerate(listed):
         groups[degree, often, at].append(number)
@@ -344,9 +347,7 @@ def _patches(read: Followed, surface: Index) -> tuple[Patches, ...]:
         return ()
     ids = read.ids(kind)
     before = sum(len(read.ids(k)) for k in _SURFACES) - len(ids)
-    flat, sizes = read.lists([row[2] for row in listed], _POINTS, ids)
-    first = np.cumsum(sizes) - sizes
-    places = read.rows(*_POINTS)[flat]
+    places, _, first = read.poles([row[2] for row in listed], ids)
     groups = defaultdict[Row, list[int]](list)
     for face, number in enumerate((surface - before).tolist()):
         if number >= 0:
