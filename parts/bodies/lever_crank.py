@@ -45,7 +45,7 @@ class LeverCrankKind(Extruded[LeverCrankSpec, LeverCrank]):
 
     def thing(self, keys: LeverCrankSpec, others: Others) -> LeverCrank:
         """The mechanism, checked to go all the way round, and the outline, checked to exist."""
-        levers = turning_levers(keys.mechanism, "mechanism")
+        levers = turning_levers(keys.mechanism)
         own = [("pivot_diameter", 0j, keys.pivot_diameter), ("pin_diameter", levers.crank + 0j, keys.pin_diameter)]
         outline = checked_outline(_edges(keys, levers.crank), keys, [hole for hole in own if hole[2] > 0])
         return LeverCrank(levers, outline)

@@ -128,8 +128,8 @@ def levers_of(keys: MechanismTable, speed: float = 1.0, change: float = 0.0) -> 
     return Levers(crank, speed, first, lever, arm, second, change)
 
 
-def turning_levers(keys: MechanismTable, place: str) -> Levers:
-    """The mechanism of the keys in a table at a ``place``, checked to let the crank go all the way round.
+def turning_levers(keys: MechanismTable) -> Levers:
+    """The mechanism of the keys in the table ``mechanism``, checked to let the crank go all the way round.
 
     Raises
     ------
@@ -140,10 +140,10 @@ def turning_levers(keys: MechanismTable, place: str) -> Levers:
 
     for name, value in told(keys).items():
         if name in unused(keys):
-            raise ParameterError(f"{place}.{name}", value, "of_no_link", REMOVED)
+            raise ParameterError(f"mechanism.{name}", value, "of_no_link", REMOVED)
     try:
         levers = levers_of(keys)
         closed(levers)
     except ParameterError as refusal:
-        raise refusal.renamed(f"{place}.{NAMES.get(refusal.name, refusal.name)}") from refusal
+        raise refusal.renamed(f"mechanism.{NAMES.get(refusal.name, refusal.name)}") from refusal
     return levers

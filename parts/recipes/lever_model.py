@@ -142,7 +142,7 @@ class _Making(Making):
         given, *_ = chosen(keys.code, keys.assignment, keys.variant)
         own = {key: value for key, value in given.items() if key in MechanismTable.__struct_fields__}
         self.machine = convert(own | told(keys.mechanism), MechanismTable)
-        turning_levers(self.machine, "mechanism")
+        turning_levers(self.machine)
         self.mechanism = scaled(self.machine, keys.scale)
         self.levers = levers_of(self.mechanism)
         self.start = given.get("start_angle_deg", 0.0) if keys.crank_angle_deg is None else keys.crank_angle_deg
