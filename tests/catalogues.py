@@ -29,6 +29,7 @@ import parts
 from exporters.command.new import comments_of
 from geometry.base.record import Draft, Record
 from geometry.laws.named import NAMED_LAWS
+from parts.base.densities import NAMES as MATERIALS
 from parts.base.reasons import SUBJECTS, sentences
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
@@ -44,6 +45,7 @@ from parts.pages.module_rules import CONDITIONS, RULES
 from parts.pages.page import UNITS
 from parts.pages.symbols import INDICES
 from parts.pages.terms import TERMS
+from parts.pages.text import SOURCES
 from parts.recipes.names import NAMES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
@@ -120,6 +122,7 @@ def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
     yield from ((NAME_OF_PART, text, "") for text in KINDS.called.values())
     yield None, "expected %s argument", "expected %s arguments"
     yield from (("index", text, "") for text in INDICES.values())
+    yield from (("source", text, "") for text in SOURCES)
     yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))
 
 
@@ -128,7 +131,7 @@ def _plain_texts() -> Iterator[str]:
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from SENTENCES
     yield from (term.name for term in TERMS.values())
-    yield from QUANTITIES.values()
+    yield from (*QUANTITIES.values(), *MATERIALS)
     yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)
     yield from (row.reason for row in (*RULES, *CONDITIONS))
     yield from MACHINES.values()

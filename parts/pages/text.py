@@ -4,30 +4,17 @@ from __future__ import annotations
 
 import re
 
-from parts.base.texts import NC_, Told, Words
+from parts.base.psv import rows_of
+from parts.base.texts import Told, Words
 from parts.pages.page import Step, number, unit_text
 from parts.pages.terms import TERMS
 
-# the words in the names of sources: "practicum (3.4)", "GOST 16532-70, table 2"
-_SOURCES = (
-    NC_("source", "practicum"),
-    NC_("source", "guidelines"),
-    NC_("source", "Savvin"),
-    NC_("source", "Artobolevsky"),
-    NC_("source", "Dunaev, Lelikov"),
-    NC_("source", "Sheinblit"),
-    NC_("source", "thesis"),
-    NC_("source", "GOST"),
-    NC_("source", "table"),
-    NC_("source", "fig"),
-    NC_("source", "lesson"),
-    NC_("source", "trains"),
-)
+SOURCES = [word for (word,) in rows_of(__file__, "sources")]
 
 
 def source_text(source: str, words: Words) -> str:
     """A source as printed."""
-    for word in _SOURCES:
+    for word in SOURCES:
         source = re.sub(rf"\b{word}\b", words.term("source", word), source)
     return source
 
