@@ -55,7 +55,6 @@ class Standing(Record):
     base radius, or in mm along the way of a second that ``slides``.
     """
 
-    direction: float
     distance: float
     phase_off: float
     play: float
@@ -199,6 +198,17 @@ class Mating(Joined, kw_only=True):
         """How two placed instances stand to each other; None: the mate asks nothing of it, or ``lies``."""
         return None
 
+    def off_place(
+        self, first: Pose, second: Pose, direction: float = 0.0, arm: float = 1.0, *, free: bool = False
+    ) -> Standing:
+        """How far a second that the first carries is from its place, mm (added to the distance), and its turn off it.
+
+        ``free``: any turn of it fits.
+        """
+        place, turned = self.second_pose(*first, direction)
+        off = 0.0 if free else math.remainder(second[1] - turned, math.tau)
+        return Standing(self.distance + abs(second[0] - place), off, 0.0, arm)
+
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """How two placed instances of what ``lies`` stand to each other."""
         raise NotImplementedError
@@ -288,10 +298,9 @@ class Toothed(Touching, kw_only=True):
         ``arm``: from the second's axis to the line of action at most, mm; ``backlash`` along that, j_bn by default, mm.
         """
         spoke = second[0] - first[0]
-        direction = cmath.phase(spoke)
-        _, right = self.second_pose(*first, direction)
+        _, right = self.second_pose(*first, cmath.phase(spoke))
         play = max(self.normal_backlash if backlash is None else backlash, 0.0) / (2 * arm)
-        return Standing(direction, abs(spoke), math.remainder(second[1] - right, pitch), play, arm)
+        return Standing(abs(spoke), math.remainder(second[1] - right, pitch), play, arm)
 
 
 # why a tooth is refused alone whose limit is that of its own tip: with what its mates leave of that it goes farther

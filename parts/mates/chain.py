@@ -80,15 +80,16 @@ class ChainMating(Wrapped):
         right, play = self._second(first[1], direction)
         sprocket = self.mesh.sprockets[1]
         off = math.remainder(second[1] - right, sprocket.pitch_angle)
-        return Standing(direction, abs(spoke), off, play, sprocket.pitch_radius)
+        return Standing(abs(spoke), off, play, sprocket.pitch_radius)
 
     def rollers(self, first: Pose, second: Pose) -> tuple[Complex, float]:
         """Of the chain in the seats of both: the strands are as slack as the second is turned within its play."""
         from geometry.base.record import replace
 
-        found, one = self.standing(first, second), self.mesh.sprockets[0]
-        places = replace(self.mesh, turn=found.phase_off).rollers(self._seat(first[1], found.direction))[1]
-        return first[0] + places * cmath.rect(1.0, found.direction), one.chain.roller_diameter / 2
+        direction, one = cmath.phase(second[0] - first[0]), self.mesh.sprockets[0]
+        mesh = replace(self.mesh, turn=self.standing(first, second).phase_off)
+        places = mesh.rollers(self._seat(first[1], direction))[1]
+        return first[0] + places * cmath.rect(1.0, direction), one.chain.roller_diameter / 2
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict of all rollers and the teeth of both over one pitch."""

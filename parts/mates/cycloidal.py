@@ -79,7 +79,7 @@ class CycloidalMating(Touching):
         off = math.remainder(second[1] - right, self.disc.pitch_angle)
         gap = pin_contact(self.disc.side(), DiscMotion(self.disc)).worst.gap
         # a pin's normal passes the disc's centre at e z at most
-        return Standing(direction, abs(spoke), off, max(gap, 0.0) / self.disc.pitch_radius, self.disc.pitch_radius)
+        return Standing(abs(spoke), off, max(gap, 0.0) / self.disc.pitch_radius, self.disc.pitch_radius)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict of all pins, and of the lobes against the inside of the ring, over a turn of the eccentric."""
@@ -139,8 +139,7 @@ class BearingMating(Touching):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the disc is from the eccentric's middle is added to the distance; it turns freely on it."""
-        centre, _ = self.second_pose(*first, 0.0)
-        return Standing(first[1], self.distance + abs(second[0] - centre), 0.0, 0.0)
+        return self.off_place(first, second, free=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """The bore about the eccentric."""
@@ -176,9 +175,8 @@ class OutputMating(Touching):
         _, right = self.second_pose(*first, 0.0)
         off = math.remainder(second[1] - right, 2 * math.pi / self.output.count)
         arm = self.output.pitch_circle_diameter / 2
-        spoke = first[0] - second[0]
         play = 2 * math.asin(min(1.0, max(self.gap, 0.0) / (2 * arm)))
-        return Standing(cmath.phase(spoke) if spoke else 0.0, abs(spoke), off, play, arm)
+        return Standing(abs(first[0] - second[0]), off, play, arm)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """All pins over a turn: the worst has the axes' offset and the turn in one direction."""

@@ -51,8 +51,7 @@ class DrawingCamsMating(Mating, dict=True):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the axes stand apart, mm, and the second's turn off its place, rad."""
-        turn = math.remainder(second[1] - first[1] - math.pi / 2, 2 * math.pi)
-        return Standing(0.0, abs(second[0] - first[0]), turn, 0.0)
+        return self.off_place(first, second)
 
     def findings(self) -> tuple[Finding, ...]:
         """Whether one line leaves the other by more than it may."""

@@ -97,9 +97,7 @@ class FixedMating(Mating):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the second is from its place, mm (added to the distance), and its turn off it, rad."""
-        centre, rotation = self.second_pose(*first, 0.0)
-        off = math.remainder(second[1] - rotation, 2 * math.pi)
-        return Standing(cmath.phase(self.offset), self.distance + abs(second[0] - centre), off, 0.0)
+        return self.off_place(first, second)
 
     def quantities(self) -> dict[str, Any]:
         """Where the second stands in the first one's frame."""
@@ -131,10 +129,7 @@ class CarriedMating(Mating):
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
         """How far the axis is from its place, mm (added to the distance); wherever it stands where none is told."""
-        if self.offset is None:
-            return None
-        centre, _ = self.second_pose(*first, 0.0)
-        return Standing(cmath.phase(self.offset), self.distance + abs(second[0] - centre), 0.0, 0.0)
+        return None if self.offset is None else self.off_place(first, second, free=True)
 
 
 class Fixed(MateKind[FixedSpec, Any, Any]):

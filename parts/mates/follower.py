@@ -65,12 +65,12 @@ class CamFollowerMating(Touching):
         off = (second[0] - place) * cmath.rect(1.0, math.pi / 2 - direction)
         lean = math.remainder(second[1] - turned, 2 * math.pi)
         if self.cam.swings and self.end.arm_length is not None:
-            return Standing(direction, self.distance + abs(off), lean * self.end.arm_length, 0.0, slides=True)
+            return Standing(self.distance + abs(off), lean * self.end.arm_length, 0.0, slides=True)
         # a round roller may stand turned
         lean = 0.0 if self.end.outline is None else lean * self.module
         # outwards a roller has the play of its groove
         play = self.normal_backlash if off.imag > 0 else 0.0
-        return Standing(direction, self.distance + math.hypot(off.real, lean), off.imag, play, slides=True)
+        return Standing(self.distance + math.hypot(off.real, lean), off.imag, play, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one turn of the cam; ``phase_off``: mm by which the follower stands too far out."""
@@ -104,7 +104,7 @@ class LinkageFollowerMating(CamFollowerMating):
         way = complex(self.cam.way(angle, self.cam.reference_point(angle))) * cmath.exp(1j * beside)
         off = (second[0] - place) * abs(way) / way
         lean = 0.0 if self.end.outline is None else math.remainder(second[1] - turned, 2 * math.pi) * self.module
-        return Standing(direction, self.distance + math.hypot(off.imag, lean), off.real, 0.0, slides=True)
+        return Standing(self.distance + math.hypot(off.imag, lean), off.real, 0.0, slides=True)
 
 
 class CamFollower(MateKind[CamFollowerSpec, "DiskCam | GrooveDisk", "FollowerEnd"]):

@@ -383,7 +383,7 @@ class RackMating(GearMating):
         middle, _ = self.second_pose(0j, first[1], direction)
         off = place.imag - (middle * cmath.rect(1.0, -direction)).imag
         play = max(self.pair.normal_backlash, 0.0) / (2 * math.cos(self.pair.rack.rack.pressure_angle))
-        return Standing(direction, place.real, math.remainder(off, self.pair.rack.pitch), play, slides=True)
+        return Standing(place.real, math.remainder(off, self.pair.rack.pitch), play, slides=True)
 
     def _mesh(self, phase_off: float, distance_off: float) -> MeshSearch:
         from geometry.gears.mesh.rack import RackMesh

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from msgspec import Meta
@@ -49,9 +48,7 @@ class LeverMemberMating(Mating):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the link is from its place, mm (added to the distance), and its turn off it, rad."""
-        place, turned = self.second_pose(*first, 0.0)
-        off = math.remainder(second[1] - turned, 2 * math.pi)
-        return Standing(0.0, self.distance + abs(second[0] - place), off, 0.0, self.levers.crank)
+        return self.off_place(first, second, arm=self.levers.crank)
 
     def quantities(self) -> dict[str, Any]:
         """How far it slides, mm, or turns, degrees, over a turn of the crank."""

@@ -52,10 +52,7 @@ class LinkageMemberMating(Mating):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the member is from its place, mm (added to the distance), and its turn off it, rad."""
-        direction = math.radians(self.direction_deg)
-        place, turned = self.second_pose(*first, direction)
-        off = math.remainder(second[1] - turned, _TURN)
-        return Standing(direction, self.distance + abs(second[0] - place), off, 0.0, self.arm)
+        return self.off_place(first, second, math.radians(self.direction_deg), self.arm)
 
     def quantities(self) -> dict[str, Any]:
         """By how much it turns over a turn of the cam."""

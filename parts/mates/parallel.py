@@ -50,7 +50,7 @@ class ParallelMating(Mating):
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the second is turned against the first; its axis is for other mates to hold."""
         off = math.remainder(second[1] - first[1] - self.rotation, 2 * math.pi)
-        return Standing(0.0, self.distance, off, 0.0)
+        return Standing(self.distance, off, 0.0)
 
 
 class Parallel(MateKind[ParallelSpec, Any, Any]):

@@ -56,8 +56,7 @@ class ConjugateMating(Touching):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the axes stand apart, mm, and the second disk's turn against the first, rad."""
-        turn = math.remainder(second[1] - first[1], 2 * math.pi)
-        return Standing(0.0, abs(second[0] - first[0]), turn, 0.0, self.module)
+        return self.off_place(first, second, arm=self.module)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one turn: the gaps under both rollers; ``phase_off`` rad: the second disk's turn."""
@@ -93,7 +92,7 @@ class YokeMating(Touching):
         place, turned = self.second_pose(*first, direction)
         off = (second[0] - place) * cmath.exp(1j * (math.pi / 2 - direction))
         lean = math.remainder(second[1] - turned, 2 * math.pi) * self.module
-        return Standing(direction, math.hypot(off.real, lean), off.imag, self.frame.play / 2, slides=True)
+        return Standing(math.hypot(off.real, lean), off.imag, self.frame.play / 2, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one turn of the cam; ``phase_off``: mm by which the frame stands too far out."""

@@ -80,10 +80,9 @@ class RatchetMating(Touching):
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and how far the pawl is turned off its place, mm at the edge that it holds."""
         spoke = second[0] - first[0]
-        towards = cmath.phase(spoke)
-        _, turned = self.second_pose(*first, towards)
+        _, turned = self.second_pose(*first, cmath.phase(spoke))
         off = math.remainder(second[1] - turned, 2 * math.pi) * self.pawl.length
-        return Standing(towards, abs(spoke), off, 0.0, slides=True)
+        return Standing(abs(spoke), off, 0.0, slides=True)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict from the tooth that it holds until it drops in front of the next one."""

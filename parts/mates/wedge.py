@@ -79,10 +79,10 @@ class WedgeMating(Touching):
             # an arm rises with its own turn: against it where its pivot stands at +x
             side = self.cam.mount.side if isinstance(self.cam.mount, Swinging) else 1
             risen = -side * lean * self.end.arm_length
-            return Standing(first[1], self.distance + abs(off), risen, 0.0, slides=True)
+            return Standing(self.distance + abs(off), risen, 0.0, slides=True)
         off *= 1j / complex(outwards(self.cam, np.asarray(self.travel)))
         lean = 0.0 if self.end.outline is None else lean * self.module
-        return Standing(first[1], math.hypot(off.real, lean), off.imag, 0.0, slides=True)
+        return Standing(math.hypot(off.real, lean), off.imag, 0.0, slides=True)
 
     def driven(self, first: Frames, second: Frames) -> tuple[Finding, ...]:
         """Whether the plate slides from under its follower, whose centre then lies beyond an end of it."""

@@ -172,7 +172,7 @@ class StackMating(Mating):
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the second is off the axis, mm, and off the side below, rad."""
         step = 2 * math.pi / self.sides
-        return Standing(0.0, abs(second[0] - first[0]), math.remainder(second[1] - first[1], step), 0.0)
+        return Standing(abs(second[0] - first[0]), math.remainder(second[1] - first[1], step), 0.0)
 
 
 class PolygonStack(MateKind[PolygonStackKeys, PolygonPlate, PolygonPlate]):
