@@ -10,16 +10,15 @@ from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from parts.base.mate import End, LaidStanding, Touching
+from parts.base.mate import End, LaidStanding
 from parts.keys.mate import GearPairKeys, backlash
-from parts.mates.gear_pair import GearPair
+from parts.mates.gear_pair import GearPair, Meeting
 from parts.mates.sizes import same_size, same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.placement import Placement3, Vector
     from geometry.gears.bevel.gear import BevelGear
     from geometry.gears.bevel.pair import BevelPair
-    from geometry.gears.mesh.search import PairContact
 
 # keys that both have alike, and those of which the second has the negative
 _ALIKE = ("module", "shaft_angle_deg", "pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient")
@@ -37,15 +36,10 @@ class BevelPairSpec(GearPairKeys, tag="bevel_pair", kw_only=True):
     normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
 
 
-class BevelMating(Touching):
+class BevelMating(Meeting):
     """Two bevel gears; the second's axis is laid so that the apexes meet."""
 
     pair: BevelPair
-
-    # flanks touch along lines: meshes cannot tell
-    decides_solids = True
-    lies = True
-    asks_height = False
 
     def second_axis(self, direction: float) -> Vector:
         """From the second's back face to the apex."""
@@ -64,25 +58,11 @@ class BevelMating(Touching):
         """In the frame of the first, where its tooth is on +x: apexes, axes, and how far the second is turned off."""
         import numpy as np
 
-        from geometry.base.placement import Placement3
-
         one, other = self.pair.gears
         seen = first.inverse() @ second
         apex = seen.apply(np.array([0.0, 0.0, other.mounting_distance])) - np.array([0.0, 0.0, one.mounting_distance])
-        x, y, z = seen.z
-        direction = cmath.phase(complex(-x, -y))
-        right = self.second_rotation(0.0, direction)
-        off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
         arm = other.cone_distance * math.sin(other.involute.base)
-        return LaidStanding(
-            float(np.linalg.norm(apex)), math.atan2(math.hypot(x, y), z), one.shaft_angle,
-            math.remainder(off.turn, math.tau / other.number_of_teeth), self.normal_backlash / 2 / arm, arm,
-            other.cone_distance,
-        )  # fmt: skip
-
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch, on the sphere about the apex."""
-        return self.pair.contact(phase_off, tolerance)
+        return self.seen_standing(seen, float(np.linalg.norm(apex)), one.shaft_angle, arm, other.cone_distance)
 
     def findings(self) -> tuple[Finding, ...]:
         """Whether a tip meets what is no flank, or a root, and whether one tooth follows on the other."""
@@ -153,9 +133,6 @@ class BevelPairKind(GearPair[BevelPairSpec, "BevelGear", "BevelGear"]):
             distance=distances[1] * math.sin(angle),
             module=first.thing.module,
             normal_backlash=pair.normal_backlash,
-            # seen from the apex both turn in opposite senses
-            rolls="bevel",
-            sense=-1,
             teeth=(first.thing.number_of_teeth, second.thing.number_of_teeth),
             pair=pair,
         )

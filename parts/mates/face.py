@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,19 +9,18 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
-from parts.base.mate import End, LaidStanding, Touching
+from parts.base.mate import End, LaidStanding
 from parts.keys.base import mm
 from parts.keys.helix import helix_of
 from parts.keys.mate import GearPairKeys, backlash
 from parts.keys.wheel import shape_of
-from parts.mates.gear_pair import GearPair
+from parts.mates.gear_pair import GearPair, Meeting
 from parts.mates.sizes import same_size, same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.placement import Placement3, Vector
     from geometry.gears.face.gear import FaceGear
     from geometry.gears.face.pair import FacePair
-    from geometry.gears.mesh.search import PairContact
     from geometry.gears.teeth.spur import SpurGear
 
 # of the module
@@ -38,15 +36,10 @@ class FaceGearPairSpec(GearPairKeys, tag="face_gear_pair", kw_only=True):
     normal_backlash: Annotated[float, backlash("normal backlash: thins both gears by half")] | None = None
 
 
-class FaceMating(Touching):
+class FaceMating(Meeting):
     """A face gear (first) and its pinion, whose z leads to the gear's axis."""
 
     pair: FacePair
-
-    # flanks touch along lines: meshes cannot tell
-    decides_solids = True
-    lies = True
-    asks_height = False
 
     def second_axis(self, direction: float) -> Vector:
         """Towards the gear's axis."""
@@ -63,20 +56,10 @@ class FaceMating(Touching):
         """In the frame of the first, where its tooth is on +x: axes, and how far the pinion is turned off."""
         import numpy as np
 
-        from geometry.base.placement import Placement3
-
         pinion, meet = self.pair.pinion, np.array([0.0, 0.0, self.pair.gear.mounting_distance])
         seen = first.inverse() @ second
-        x, y, z = axis = seen.z
-        apart = float(np.linalg.norm(np.cross(meet - seen.apply(np.zeros(3)), axis)))
-        direction = cmath.phase(complex(-x, -y))
-        right = self.second_rotation(0.0, direction)
-        off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
-        arm = pinion.base_radius
-        return LaidStanding(
-            apart, math.atan2(math.hypot(x, y), z), math.pi / 2, math.remainder(off.turn, pinion.pitch_angle),
-            self.normal_backlash / 2 / arm, arm, self.pair.gear.outer_radius,
-        )  # fmt: skip
+        apart = float(np.linalg.norm(np.cross(meet - seen.apply(np.zeros(3)), seen.z)))
+        return self.seen_standing(seen, apart, math.pi / 2, pinion.base_radius, self.pair.gear.outer_radius)
 
     def laid(self, first: Placement3, second: Placement3) -> FaceMating:
         """The same pair with the pinion's face where it stands."""
@@ -86,10 +69,6 @@ class FaceMating(Touching):
         start = float(np.hypot(*seen.apply(np.zeros(3))[:2]))
         width = self.pair.high - self.pair.low
         return replace(self, pair=replace(self.pair, low=start - width, high=start))
-
-    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
-        """Verdict over one pitch, in planes across the pinion's axis."""
-        return self.pair.contact(phase_off, tolerance)
 
     def findings(self) -> tuple[Finding, ...]:
         """Whether a tip meets what is no flank, or a root, and whether one tooth follows on the other."""
@@ -174,9 +153,6 @@ class FaceGearPairKind(GearPair[FaceGearPairSpec, "FaceGear", "SpurGear"]):
             distance=middle + width / 2,
             module=gear.module,
             normal_backlash=pair.normal_backlash,
-            # seen from where the axes meet both turn in opposite senses
-            rolls="bevel",
-            sense=-1,
             teeth=(gear.number_of_teeth, pinion.number_of_teeth),
             pair=pair,
         )

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from geometry.base.errors import Nearest
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
-from parts.base.mate import End, MateKeys, MateKind
+from parts.base.mate import End, LaidStanding, MateKeys, MateKind, Touching
+
+if TYPE_CHECKING:
+    from geometry.base.placement import Placement3
+    from geometry.gears.mesh.search import PairContact
+    from geometry.kinematics.mechanism import Kind
 
 K = TypeVar("K", bound=MateKeys)
 A = TypeVar("A")
@@ -28,6 +34,36 @@ def as_far_as_teeth_follow(
     beyond = found.value + math.copysign(_STEP * min(found.value, step), given - found.value)
     # where nearer ones run too, with interruptions, this is no limit, but what to take
     return Nearest(found.value) if kept(lambda at: ratio(at) > 0, beyond) else found
+
+
+class Meeting(Touching, kw_only=True):
+    """Two gears whose axes meet, made for each other; seen from where they do, both turn in opposite senses."""
+
+    rolls: Kind | None = "bevel"
+    sense: int = -1
+    pair: Any
+
+    # flanks touch along lines: meshes cannot tell
+    decides_solids = True
+    lies = True
+    asks_height = False
+
+    def seen_standing(self, seen: Placement3, apart: float, angle: float, arm: float, reach: float) -> LaidStanding:
+        """Of the second as the first sees it, whose tooth is on +x: ``apart`` mm, its axes at ``angle`` if right."""
+        from geometry.base.placement import Placement3
+
+        x, y, z = seen.z
+        direction = cmath.phase(complex(-x, -y))
+        right = self.second_rotation(0.0, direction)
+        off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
+        turned = math.remainder(off.turn, math.tau / self.teeth[1])
+        play = self.normal_backlash / 2 / arm
+        return LaidStanding(apart, math.atan2(math.hypot(x, y), z), angle, turned, play, arm, reach)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch: on the sphere about the apex, or in planes across the pinion's axis."""
+        contact: PairContact = self.pair.contact(phase_off, tolerance)
+        return contact
 
 
 class GearPair(MateKind[K, A, B]):
