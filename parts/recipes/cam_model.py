@@ -170,8 +170,7 @@ class _Making(Making):
         self.pin("axle", keys.axle_diameter, 4 * thick)
         self.fix("frame", "axle", 0j, 0.0)
         self.pin("guide_pin", keys.guide_pin_diameter, 4 * thick)
-        for k, one in enumerate(at, 1):
-            self.fix("frame", f"guide_pin_{k}", one, 0.0, "guide_pin")
+        self.fix_each("frame", "guide_pin", [(one, 0.0) for one in at])
         if self.rolls:
             self._spacers(at)
 
@@ -184,8 +183,7 @@ class _Making(Making):
         if outside < bore + 2 * _LEAST_RING:
             return
         self.plate("spacer", outside, [hole(0j, bore)], label=False)
-        for k, (one, layer) in enumerate(((one, layer) for one in at for layer in (1, 2)), 1):
-            self.fix("frame", f"spacer_{k}", one, layer * thick, "spacer")
+        self.fix_each("frame", "spacer", [(one, layer * thick) for one in at for layer in (1, 2)])
 
     def _stem(self) -> dict[str, object]:
         """The follower's stem: its slot, and as much beyond it as the stem is wide."""

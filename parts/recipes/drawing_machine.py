@@ -273,11 +273,9 @@ class _Making(Making):
         self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -thick], "held": True}
         for name, boards, ats in (("x", 3, pins[:2]), ("y", 8, pins[2:])):
             self.pin(f"guide_pin_{name}", keys.guide_pin_diameter, boards * thick - _SHORT)
-            for k, at in enumerate(ats, 1):
-                self.fix("frame", f"guide_pin_{name}_{k}", at, 0.0, f"guide_pin_{name}")
+            self.fix_each("frame", f"guide_pin_{name}", [(at, 0.0) for at in ats])
         self.plate("spacer", 2 * self.ring, [hole(0j, self.slot)], label=False)
-        for k, (at, layer) in enumerate(((at, layer) for at in pins[2:] for layer in range(1, 6)), 1):
-            self.fix("frame", f"spacer_{k}", at, layer * thick, "spacer")
+        self.fix_each("frame", "spacer", [(at, layer * thick) for at in pins[2:] for layer in range(1, 6)])
 
     def _shaft(self) -> None:
         """The shaft with both cams, their key and the crank with its handle; washers under the cams carry them."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
 
@@ -183,6 +183,11 @@ class Making:
     def fix(self, first: str, second: str, at: complex, height: float, part: str = "") -> None:
         """One body with the first; ``height`` above its lower face."""
         self.put("fixed", first, second, part, offset=place(at, height))
+
+    def fix_each(self, first: str, part: str, places: Iterable[tuple[complex, float]]) -> None:
+        """Ones of a part, numbered, of one body with the first: the place and the height of each."""
+        for k, (at, height) in enumerate(places, 1):
+            self.fix(first, f"{part}_{k}", at, height, part)
 
 
 def place(at: complex, height: float) -> list[float]:

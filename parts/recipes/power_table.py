@@ -224,10 +224,8 @@ class _Making(Making):
             height = max(height, math.ceil(2 * thick + sizes.bearing / 2 - sizes.worm_planes[0]) + 5.0)
         self.pin("foot", _FOOT, height)
         self.pin("post", keys.pin_diameter, self.first_cranks + thick)
-        for k, at in enumerate(corners, 1):
-            self.fix("base", f"foot_{k}", at, 2 * thick - height, "foot")
-        for k, at in enumerate(posts, 1):
-            self.fix("base", f"post_{k}", at, 0.0, "post")
+        self.fix_each("base", "foot", [(at, 2 * thick - height) for at in corners])
+        self.fix_each("base", "post", [(at, 0.0) for at in posts])
 
     def _ring(self) -> None:
         """Back disk, rim and ring, one body on four dowels; the tube in it."""
@@ -246,8 +244,7 @@ class _Making(Making):
         self.fix("ring", "back", 0j, self.back - self.ring)
         self.fix("ring", "rim", 0j, self.back + thick - self.ring)
         self.pin("dowel", keys.pin_diameter, 3 * thick)
-        for k, at in enumerate(dowels, 1):
-            self.fix("ring", f"dowel_{k}", at, self.back - self.ring, "dowel")
+        self.fix_each("ring", "dowel", [(at, self.back - self.ring) for at in dowels])
         low, _ = self.ends
         self.pin("tube", sizes.tube, self.back + thick - low, keys.axle_diameter + keys.clearance)
         self.fix("ring", "tube", 0j, low - self.ring, "tube")
