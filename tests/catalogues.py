@@ -36,6 +36,7 @@ from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
 from parts.drawing.names import NAME_OF_PART
 from parts.drawing.title_block import LABELS
+from parts.keys.law import EXAMPLES
 from parts.mates.pages.lever_tasks import MACHINES
 from parts.mates.registry import MATES
 from parts.pages.cam_steps import law_text
@@ -131,7 +132,7 @@ def _plain_texts() -> Iterator[str]:
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from SENTENCES
     yield from (term.name for term in TERMS.values())
-    yield from (*QUANTITIES.values(), *MATERIALS)
+    yield from (*QUANTITIES.values(), *MATERIALS, *(meant for _, meant in EXAMPLES))
     yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)
     yield from (row.reason for row in (*RULES, *CONDITIONS))
     yield from MACHINES.values()

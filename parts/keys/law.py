@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
+from msgspec.json import decode
 from msgspec.structs import astuple
 
 from geometry.base.errors import Nearest, ParameterError
+from parts.base.psv import rows_of
 from parts.base.texts import N_
 from parts.keys.base import start
 
@@ -154,46 +156,9 @@ _KINDS = {
 
 
 # laws of one's own in place of a name, each with what it is
-_EXAMPLES: tuple[tuple[dict[str, object], str], ...] = (
-    (
-        {"diagram": [{"shape": "half_sine", "width": 1.0, "peak": peak} for peak in (1.0, -1.0)]},
-        N_(
-            "law by its acceleration diagram; shapes: constant, linear, half_sine, quarter_sine, quarter_cosine, "
-            "half_cosine, trapezoid, points"
-        ),
-    ),
-    (
-        {
-            "diagram": [
-                {"shape": "linear", "width": 3.0, "first": 0.0, "last": 2.0},
-                {"shape": "linear", "width": 5.0, "first": -2.0, "last": 0.0},
-            ],
-            "balance": True,
-        },
-        N_("balance scales what lies below the axis so that the diagram closes"),
-    ),
-    (
-        {
-            "first_half": [{"shape": "trapezoid", "width": 1.0, "ordinate": 1.0, "up": 0.25}],
-            "second_half": [{"shape": "half_sine", "width": 1.0, "peak": 1.0}],
-            "first_share": 0.5,
-        },
-        N_("acceleration and deceleration as two halves, both above the axis"),
-    ),
-    (
-        {"conditions": [[end, order, end if order == 0 else 0.0] for end in (0.0, 1.0) for order in (0, 1, 2)]},
-        N_("polynomial by conditions [u, order, value of that derivative]"),
-    ),
-    ({"poles": [*[0.0] * 4, *[1.0] * 4], "degree": 5}, N_("B-spline by its poles")),
-    (
-        {"sine_constant_cosine": [0.25, 0.5, 0.25]},
-        N_(
-            "SCCA by its shares; modified_trapezoid, modified_sine, modified_sine_cv20 to _cv50, cosine and sine (the "
-            "inclined sine of VDI 2143) are of this family"
-        ),
-    ),
-    ({"name": "modified_trapezoid", "ramp": 0.125, "reverse": False}, N_("named law with ramps of your own")),
-)
+EXAMPLES: list[tuple[dict[str, object], str]] = [
+    (decode(law), meant) for law, meant in rows_of(__file__, "law_examples")
+]
 
 
 def with_own_laws(phases: list[dict[str, object]]) -> Meta:
@@ -207,7 +172,7 @@ def with_own_laws(phases: list[dict[str, object]]) -> Meta:
     return start(
         phases,
         ([*parts, *phases[1:]], meant),
-        *(([{**phases[0], "law": law}, *phases[1:]], meant) for law, meant in _EXAMPLES),
+        *(([{**phases[0], "law": law}, *phases[1:]], meant) for law, meant in EXAMPLES),
     )
 
 
