@@ -232,9 +232,15 @@ def _runs(start: complex, end: complex, boxes: Real) -> Flags:
 
 def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
     """Those whose boxes share nothing with boxes (rows of left, top, right, bottom)."""
-    left, top, right, low = np.array([place.box for place in places]).reshape(-1, 4).T[:, :, None]
+    covered = _covered(np.array([place.box for place in places]).reshape(-1, 4), taken)
+    return [place for place, hidden in zip(places, covered, strict=True) if not hidden]
+
+
+def _covered(boxes: Real, taken: Real) -> Flags:
+    """Which boxes (left, top, right, low along the last axis) share something with one of those taken (in rows)."""
+    left, top, right, low = np.moveaxis(boxes[..., None], -2, 0)
     shared = (left < taken[:, 2]) & (taken[:, 0] < right) & (top < taken[:, 3]) & (taken[:, 1] < low)
-    return [place for place, covered in zip(places, shared.any(axis=1), strict=True) if not covered]
+    return np.asarray(shared.any(axis=-1))
 
 
 def _around(label: Label, tops: Tops, taken: Real) -> Iterator[Label]:
@@ -242,9 +248,7 @@ def _around(label: Label, tops: Tops, taken: Real) -> Iterator[Label]:
     ways = np.exp(2j * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS)
     shifts = np.arange(1, 4 * _RINGS + 1)[:, None] / 2 * label.size * (1 + 2 * _ROOM) * ways
     boxes = np.array(label.box) + np.stack([shifts.real, shifts.imag] * 2, axis=-1)
-    left, top, right, low = np.moveaxis(boxes[..., None], 2, 0)
-    shared = (left < taken[:, 2]) & (taken[:, 0] < right) & (top < taken[:, 3]) & (taken[:, 1] < low)
-    free = tops.plain(boxes) & ~shared.any(axis=-1)
+    free = tops.plain(boxes) & ~_covered(boxes, taken)
     for way in np.flatnonzero(free.any(axis=0)).tolist():
         shift = complex(shifts[free[:, way].argmax(), way])
         yield replace(label, x=label.x + shift.real, y=label.y + shift.imag)
