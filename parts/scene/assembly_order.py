@@ -185,7 +185,8 @@ class _Order:
 
     def _passes(self, coming: Instance, standing: Instance, leg: Leg, *, screwed: bool) -> tuple[str, float | None]:
         """How it is decided, and what is hit, mm^3; as often as both stand alike."""
-        coming = replace(coming, at=_plus(coming.at, leg.left, -1))
+        x, y, z = (a - b for a, b in zip(coming.at, leg.left, strict=True))
+        coming = replace(coming, at=(x, y, z))
         if frozenset((coming.id, standing.id)) in self.contact and self._slides(coming, standing, leg, screwed):
             return "mesh", 0.0
         key = self._alike(coming, standing, leg)
@@ -356,8 +357,3 @@ def _box(instance: Instance, part: Part) -> Real:
     wide = reach * np.sqrt(np.maximum(1 - axis**2, 0.0))
     ends = np.array([at + low * axis, at + high * axis])
     return np.array([ends.min(axis=0) - wide, ends.max(axis=0) + wide])
-
-
-def _plus(at: Vector, way: Vector, sign: int) -> Vector:
-    x, y, z = (a + sign * b for a, b in zip(at, way, strict=True))
-    return x, y, z
