@@ -19,7 +19,7 @@ from geometry.solids.spline_fits import (
 from geometry.solids.splines import InvoluteJoint, SplineMeasures
 from parts.base.texts import N_
 from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
-from parts.keys.base import mm
+from parts.keys.base import check_not_in_vain, mm
 from parts.keys.splines import InvoluteSplineTable
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
@@ -76,6 +76,8 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
         _measured_steps(page, joint, keys, is_shaft=is_shaft)
     # the length is that of the deviations too
     length = keys.length if keys.torque is not None or not (joint.hub_class or joint.shaft_class) else None
+    if keys.torque is None:
+        check_not_in_vain(keys, ("load_share",), "torque")
     bearing_steps(page, sides, keys.torque, length, keys.load_share)
     fit_tables(page, joint.fits)
     return page

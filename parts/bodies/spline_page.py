@@ -6,6 +6,7 @@ from geometry.solids.splines import SplineBore
 from geometry.solids.zones import side_symmetry
 from parts.base.texts import N_
 from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
+from parts.keys.base import check_not_in_vain
 from parts.keys.splines import StraightSplineTable
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
@@ -41,6 +42,8 @@ def sheet(keys: SplineKeys) -> Sheet:
     page.add("spline_mean_diameter", sides.mean_diameter, "({D} + {d}) / 2")
     page.add("spline_height", sides.height, "({D} - {d}) / 2 - 2 * {c}")
     page.add("spline_clearance", bore.clearance)
+    if keys.torque is None:
+        check_not_in_vain(keys, ("load_share",), "torque")
     bearing_steps(page, sides, keys.torque, keys.length, keys.load_share)
     fit_tables(page, joint.fits)
     return page

@@ -318,15 +318,20 @@ def _double(wish: Search, low: Fraction, high: Fraction) -> Numbers:
 
 
 def _assembled(wish: Search, teeth: Numbers) -> Numbers:
-    """The sets whose satellites fit equally spaced, by the assembly condition and roughly by their neighbours."""
+    """The sets whose satellites fit equally spaced, by the assembly condition, roughly by neighbours and diameter."""
     z1, z2, z2p, z3 = teeth
     if wish.identical or not wish.scheme.double:
         places = np.abs(z1 * z2p + (-1 if wish.scheme.alike else 1) * z2 * z3) // np.gcd(z2, z2p)
         teeth = teeth[:, places % wish.satellites == 0]
         z1, z2, z2p, z3 = teeth
     m1, m2 = map(float, wish.modules)
-    height = 2 * TIP * float(wish.cosine)
-    reach = np.maximum(m1 * (z2 + height), m2 * (z2p + height)) + float(wish.gap * wish.cosine)
+    tip, root = (2 * height * float(wish.cosine) for height in (TIP, ROOT))
+    rim = np.maximum(m1 * (z2 + tip), m2 * (z2p + tip))
     arm = m1 * (z1 - z2 if wish.scheme.internal[0] else z1 + z2)
     sine = math.sin(math.pi / wish.satellites) if wish.satellites > 1 else math.inf
-    return teeth[:, reach <= arm * sine * (1 + 1e-9)]
+    kept = rim + float(wish.gap * wish.cosine) <= arm * sine * (1 + 1e-9)
+    if wish.diameter is not None:
+        wheels = zip((m1, m2), (z1, z3), wish.scheme.internal, strict=True)
+        ends = (m * (z + (root if inside else tip)) for m, z, inside in wheels)
+        kept &= np.maximum.reduce([arm + rim, *ends]) <= float(wish.diameter * wish.cosine) * (1 + 1e-9)
+    return teeth[:, kept]

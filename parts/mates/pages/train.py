@@ -121,6 +121,8 @@ class _Page:
         """Scheme, mobility, ratios, speeds, statics and the check by experiment: the practicum's form of report."""
         self._missing_teeth()
         self.train = train = parsed(self.teeth, self.words, self.shafts, self.carriers, self.held)
+        if self.keys.module is not None and all(mesh.module for mesh in train.meshes):
+            raise ParameterError("module", self.keys.module, "follows_from", REMOVED, key="meshes")
         self._links()
         mechanism = train.mechanism()
         self.drives = [train.bodies[name] for name in self.inputs]

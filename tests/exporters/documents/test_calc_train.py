@@ -246,6 +246,7 @@ def test_report_form_has_a_place_for_the_count() -> None:
 @pytest.mark.parametrize(
     ("keys", "parts"),
     [
+        (("practicum_example_1", "module=2"), ("train.module = 2.0", "follows from meshes")),
         (("teeth=[20,30]", "meshes=1-1"), ('"1-1"', "wheels of one body do not mesh")),
         (("teeth=[20,30,40]", "meshes=1-2, 2-3", "shafts=1-2"), ('"1-2"', "wheels of one body do not mesh")),
         (("teeth=[20,30,40]", "meshes=1-2, 2-3", "shafts=H"), ('"H"', "as 2-3")),

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from exporters.documents.topics import calculate, sheet_of
+from parts.base.refusal import SceneError
 from tests.exporters.documents.test_calc import PUBLISHED, evaluated
 
 CASES = json.loads((PUBLISHED / "textbook_pages.json").read_text(encoding="utf-8"))["cases"]
@@ -42,6 +43,13 @@ def test_formulas_of_the_limits_of_a_spline_give_them(words: tuple[str, ...]) ->
     assert sum(step.name.startswith(("least_", "greatest_")) for step in steps) >= 5
     for step in steps:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), step.name
+
+
+@pytest.mark.parametrize("words", [("spline", "size=6x23x26"), ("involute-spline", "size=50x2")], ids=lambda w: w[0])
+def test_a_share_of_the_sides_carries_a_torque_alone(words: tuple[str, ...]) -> None:
+    topic, *keys = words
+    with pytest.raises(SceneError, match=r"load_share = 0\.7: needs torque too"):
+        calculate(topic, [*keys, "load_share=0.7"], "text", "en")
 
 
 def test_limits_of_a_straight_spline_are_those_of_a_worked_example() -> None:

@@ -11,6 +11,7 @@ from fractions import Fraction
 import pytest
 
 from geometry.base.errors import ParameterError
+from geometry.base.record import replace
 from geometry.gears.planetary.assembly import Satellites, given_set
 from geometry.gears.planetary.sets import (
     LINKS,
@@ -188,8 +189,19 @@ def test_synthesis_finds_what_brute_force_finds(scheme: str, ratio: str, driver:
         assert len(found) == len({one.teeth for one in found})
         sizes = [one.diameter for one in found]
         assert sizes == sorted(sizes)
+        # the bound included
+        for size in sizes[:: max(len(sizes) // 3, 1)]:
+            small = found_sets(replace(wish, diameter=size))
+            assert [one.teeth for one in small] == [one.teeth for one in found if one.diameter <= size]
         counted += len(found)
     assert counted
+
+
+def test_sets_that_are_too_large_by_far_are_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Their number of all ratios made a refusal take 4 s."""
+    wish = Search(SCHEMES["two_internal"], (Fraction(1, 40), Fraction(5)), diameter=Fraction(20))
+    monkeypatch.setattr("geometry.gears.planetary.sets.PlanetarySet", None)
+    assert nearest_ratio(wish) is None
 
 
 @pytest.mark.parametrize(("least", "count"), [(8, 59), (10, 57), (11, 55), (12, 52), (17, 37)])
