@@ -100,19 +100,15 @@ class Probed(Record):
     findings: tuple[Finding, ...] = ()
 
 
-class Probe(Protocol):
+class Probe(Record, kw_only=True):
     """What a part's files must also do, beside agreeing with its exact section or solid.
 
-    ``needs_whole``: it is left out where an offset has trimmed the outline.
+    ``name``: what the names of its measured values begin with; empty where the part has only this probe.
     """
 
-    @property
-    def name(self) -> str:
-        """What the names of its measured values begin with; empty where the part has only this probe."""
-
-    @property
-    def needs_whole(self) -> bool:
-        """Whether it is left out where an offset has trimmed the outline."""
+    name: str = ""
+    # whether it is left out where an offset has trimmed the outline
+    needs_whole = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Put a file to it whose outlines are ``offset`` mm out of the material and ``declared`` mm off at most.
@@ -122,3 +118,4 @@ class Probe(Protocol):
         ReadError
             The file holds nothing that it could be put to.
         """
+        raise NotImplementedError

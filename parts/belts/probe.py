@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geometry.base.record import Record
-from parts.base.readback import Probed, outline_at
+from parts.base.readback import Probe, Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -17,13 +16,11 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-12
 
 
-class GrooveProbe(Record):
+class GrooveProbe(Probe):
     """The thickest pin that has room in the middle of every groove; ``height``: where a solid is cut, mm."""
 
     pulley: Pulley
     height: float
-    name: str = ""
-    needs_whole: bool = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """The least gap to its pins, of all grooves at once; see ``parts.base.readback.Probe``."""

@@ -264,10 +264,11 @@ class _Turned(Kind[K, "HalfSection"]):
         from parts.keys.spline_probe import SplineProbe
 
         splined = [(k, step.spline.bore()) for k, step in enumerate(keys.steps, 1) if step.spline]
+        names = ["spline"] if len(splined) == 1 else [f"spline_{k}" for k, _ in splined]
         seen = thing.seen_spline()
         return tuple(
-            SplineProbe(bore, (s.low + s.high) / 2, True, s == seen, "spline" if len(splined) == 1 else f"spline_{k}")
-            for (k, bore), s in zip(splined, thing.splines, strict=True)
+            SplineProbe(bore, (s.low + s.high) / 2, True, s == seen, name=name)
+            for (_, bore), s, name in zip(splined, thing.splines, names, strict=True)
         )
 
     def report(self, keys: K, thing: HalfSection) -> Report:

@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.findings import Finding
-from geometry.base.record import Record
 from geometry.cams.contact.rolled import lift_bound, rolled_lift
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Real
 from geometry.plane.measure import distance_to_profile
-from parts.base.readback import Probed, ReadBack, ReadLoop, refuse_if
+from parts.base.readback import Probe, Probed, ReadBack, ReadLoop, refuse_if
 from parts.base.texts import N_, fault, fault_of
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ _ROUNDING = 1e-12
 _ROUGH = 16
 
 
-class TurningProbe(Record):
+class TurningProbe(Probe):
     """A follower rolled over a cam that turns; ``height``: where a solid is cut, mm.
 
     ``profile(offset)``: the exact wall in the part's frame, moved out of the material, next to which its loop lies;
@@ -49,7 +48,6 @@ class TurningProbe(Record):
     profile: Callable[[float], Profile] | None = None
     turn: float = 0.0
     below: bool = True
-    name: str = ""
     needs_whole = True
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
@@ -85,13 +83,11 @@ class TurningProbe(Record):
         )
 
 
-class SlidingProbe(Record):
+class SlidingProbe(Probe):
     """A follower on a plate that slides; ``height``: where a solid is cut, mm."""
 
     cam: WedgeCam
     height: float
-    name: str = ""
-    needs_whole = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Slide the follower over 3600 steps of the travel; see ``parts.base.readback.Probe``."""

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geometry.base.record import Record
-from parts.base.readback import Probed, outline_at
+from parts.base.readback import Probe, Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -17,13 +16,11 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-12
 
 
-class RollerProbe(Record):
+class RollerProbe(Probe):
     """A roller set in every gap; ``height``: where a solid is cut, mm."""
 
     sprocket: Sprocket
     height: float
-    name: str = ""
-    needs_whole: bool = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """The least gap to its rollers, of all gaps at once; see ``parts.base.readback.Probe``."""

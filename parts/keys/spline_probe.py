@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from geometry.plane.measure import distance_to_profile
 from geometry.solids.splines import SplineBore
-from parts.base.readback import Probed, ReadBack, ReadError, ReadLoop, outline_points, refuse_if
+from parts.base.readback import Probe, Probed, ReadBack, ReadError, ReadLoop, outline_points, refuse_if
 from parts.base.texts import unless
 
 _ROUNDING = 1e-9
@@ -18,7 +17,7 @@ _NEAR = 1.1
 _ALONG = 400
 
 
-class SplineProbe(Record):
+class SplineProbe(Probe):
     """The mate of the same sizes put to the bore, or to the ``teeth`` of its shaft.
 
     ``height``: where a solid is cut, mm; ``is_seen``: flat outlines have it.
@@ -28,8 +27,6 @@ class SplineProbe(Record):
     height: float
     teeth: bool = False
     is_seen: bool = True
-    name: str = "spline"
-    needs_whole: bool = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """The least gap all round, below 0 where the mate would cut the file; see ``parts.base.readback.Probe``."""

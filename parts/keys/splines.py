@@ -149,7 +149,7 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
         """What files of a part with such a bore must do where they are cut, mm."""
         from parts.keys.spline_probe import SplineProbe
 
-        return (SplineProbe(self.bore(), height),)
+        return (SplineProbe(self.bore(), height, name="spline"),)
 
 
 _SIZE = Meta(

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geometry.base.record import Record
-from parts.base.readback import Probed, outline_at
+from parts.base.readback import Probe, Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -21,13 +20,11 @@ _PLACES = 65
 _ROUNDING = 1e-12
 
 
-class SlotProbe(Record):
+class SlotProbe(Probe):
     """A pin moved along the slots, the disc held in the arcs; ``height``: where a solid is cut, mm."""
 
     wheel: GenevaWheel
     height: float
-    name: str = ""
-    needs_whole: bool = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Both by the distances of the outline's points, all slots at once; see ``parts.base.readback.Probe``."""

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geometry.base.record import Record
-from parts.base.readback import Probed, outline_at
+from parts.base.readback import Probe, Probed, outline_at
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -28,13 +27,11 @@ def _outline(file: ReadBack, height: float, wheel: RatchetWheel, number: int = 1
     return points if wheel.ccw else points.conj()
 
 
-class ToothProbe(Record):
+class ToothProbe(Probe):
     """The edge of every tooth, and the rounding of every root; ``height``: where a solid is cut, mm."""
 
     wheel: RatchetWheel
     height: float
-    name: str = ""
-    needs_whole: bool = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """By the corners that the file has; see ``parts.base.readback.Probe``."""
@@ -60,13 +57,11 @@ class ToothProbe(Record):
         return Probed({"edge_off": off, "root_off": wrong}, tuple(failures))
 
 
-class SeatProbe(Record):
+class SeatProbe(Probe):
     """The outline of a pawl laid into the notch of its wheel; ``height``: where a solid is cut, mm."""
 
     pawl: PawlShape
     height: float
-    name: str = ""
-    needs_whole: bool = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """By the distances of the outline's points from the exact teeth; see ``parts.base.readback.Probe``."""

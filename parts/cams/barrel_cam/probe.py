@@ -10,14 +10,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geometry.base.record import Record, replace
+from geometry.base.record import replace
 from geometry.cams.barrel.body import BarrelBody, Plane
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.cams.barrel.rolling import UnrolledWall, rolled_places, wall_height
 from geometry.cams.contact.rolled import rolled_lift
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Real
-from parts.base.readback import Probed, ReadBack, ReadError
+from parts.base.readback import Probe, Probed, ReadBack, ReadError
 from parts.base.texts import N_, fault
 from parts.cams.probes import ANGLES, at_angle, lift_errors, lift_failure, lift_jumps
 
@@ -31,13 +31,11 @@ _BEND, _ROUNDING = 1.1, 1e-9
 _SLACK = 0.02
 
 
-class GrooveRoller(Record):
+class GrooveRoller(Probe):
     """The roller in the groove of a cylindrical cam, ``body(offset)``; its diameter, mm."""
 
     body: Callable[[float], BarrelBody]
     diameter: float
-    name: str = ""
-    needs_whole = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Errors of its place along the axis, and its play; see ``parts.base.readback.Probe``.
