@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from msgspec import Meta, field
-from msgspec.structs import replace
+from msgspec.structs import fields, replace
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.findings import Finding
@@ -168,12 +168,13 @@ def _tried(keys: F, refusal: ParameterError, whole: Callable[[F], bool]) -> Para
 
 def _check_end(keys: FollowerSpec | FollowerArmSpec, more: Mapping[str, tuple[str, ...]]) -> None:
     """Keys that belong to other ends are refused, and a mushroom has a radius."""
-    owners = {"follower_radius": ("mushroom",), "pin_diameter": ("roller",), **more}
+    owners = {"follower_radius": ("mushroom",), "pin_diameter": ("roller",), "tip_angle_deg": ("pointed",), **more}
+    usual = {known.name: known.default for known in fields(keys)}
     for key, ends in owners.items():
         value = getattr(keys, key)
-        if value and keys.end not in ends:
+        if value != usual[key] and keys.end not in ends:
             code = "roller_is_a_part" if (key, keys.end) == ("follower_radius", "roller") else "for_other_ends"
-            raise ParameterError(key, value, code, Nearest(0.0), ends=ends)
+            raise ParameterError(key, value, code, Nearest(usual[key]), ends=ends)
     if keys.end == "mushroom" and not keys.follower_radius:
         raise ParameterError("follower_radius", 0.0, "follower_without_radius", end="mushroom")
 
@@ -199,7 +200,7 @@ class Follower(Ended[FollowerSpec]):
         from geometry.cams.contact.outlines import FollowerEnd
         from geometry.cams.plane.disk import FollowerKind
 
-        _check_end(keys, {"plate_diameter": ("flat", "mushroom"), "corner_radius": ("flat", "mushroom")})
+        _check_end(keys, dict.fromkeys(("plate_diameter", "plate_thickness", "corner_radius"), ("flat", "mushroom")))
         if keys.end in ("flat", "mushroom") and keys.plate_diameter == 0:
             works = Nearest(2 * keys.stem_width)
             raise ParameterError("plate_diameter", 0.0, "follower_without_plate", works, end=keys.end)
@@ -220,7 +221,7 @@ class FollowerArm(Ended[FollowerArmSpec]):
         from geometry.cams.contact.outlines import FollowerEnd
         from geometry.cams.plane.disk import FollowerKind
 
-        _check_end(keys, {"face_offset": ("flat",)})
+        _check_end(keys, {"face_offset": ("flat",), "tip_height": ("pointed", "mushroom")})
         edges = _edges(keys, _arm_edges, _ARM_SIZES)
         own = [("pivot_diameter", 0j, keys.pivot_diameter), ("pin_diameter", keys.arm_length + 0j, keys.pin_diameter)]
         outline = checked_outline(edges, keys, [hole for hole in own if hole[2] > 0])

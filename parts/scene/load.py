@@ -20,7 +20,7 @@ from parts.base.materials import check_material
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
+from parts.base.schema import as_written, converted, plain_numbers, tried, value_at, without_none
 from parts.base.texts import Message
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid, check_parts
@@ -596,7 +596,10 @@ def _alike(
                 if other not in joined and (
                     had := {key: v for key, v in values.items() if getattr(spec, key, None) == getattr(old, key)}
                 ):
-                    found[other] = msgspec.structs.replace(spec, **had)
+                    for key, value in had.items():
+                        # what is left out has the other's own default
+                        spec = tried(spec, key, value)
+                    found[other] = spec
                     joined.append(other)
     return found
 

@@ -15,7 +15,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import CAM, EVEN_CAM, CamSpec
-from parts.keys.base import mm, part_mm
+from parts.keys.base import check_not_in_vain, mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -186,6 +186,9 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
 
         owner = owner_of(keys.of, others, CamSpec)
         cam = CAM.thing(owner, others)
+        of_rollers, of_flats = ("pin_diameter", "shaft_diameter"), ("side_clearance",)
+        ours, other = (of_rollers, "roller") if cam.is_flat else (of_flats, "flat")
+        check_not_in_vain(keys, ours, f'follower = "{other}"')
         try:
             breadth = yoke_breadth(cam)
         except ParameterError as refusal:

@@ -379,6 +379,11 @@ def test_holes_of_arms_are_told_the_largest_that_their_ends_hold() -> None:
         (STEM, "plate_diameter", 30.0, "for_other_ends", 0.0),
         (STEM, "corner_radius", 1.0, "for_other_ends", 0.0),
         (ARM, "face_offset", 2.0, "for_other_ends", 0.0),
+        # before: without effect
+        (STEM, "plate_thickness", 4.0, "for_other_ends", 5.0),
+        (FLAT, "tip_angle_deg", 50.0, "for_other_ends", 60.0),
+        (ARM, "tip_angle_deg", 50.0, "for_other_ends", 60.0),
+        (ARM, "tip_height", 5.0, "for_other_ends", 10.0),
         (CAP, "follower_radius", 0.0, "follower_without_radius", ...),
         (FLAT, "plate_diameter", 0.0, "follower_without_plate", 20.0),
         (FLAT | {"stem_width": 7.0}, "plate_diameter", 0.0, "follower_without_plate", 14.0),

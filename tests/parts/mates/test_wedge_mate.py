@@ -203,8 +203,8 @@ def test_solids_of_plate_and_stem_above_it_do_not_meet() -> None:
 WRONG = {
     "travel": (scene_text("roller", None, 131.0), "at most 130 mm works"),
     "diameter": (scene_text("roller", None).replace("diameter = 12.0", "diameter = 11.0"), "12 mm works"),
-    "end": (scene_text("pointed", None).replace('follower = "pointed"', 'follower = "roller"\nfollower_radius = 3.0'),
-            '"roller" works'),
+    "end": (scene_text("pointed", None).replace('follower = "pointed"', 'follower = "roller"\nfollower_radius = 3.0')
+            .replace("tip_angle_deg = 30.0", ""), '"roller" works'),
     "arm": (scene_text("pointed", None).replace('kind = "follower"', 'kind = "follower_arm"\narm_length = 60.0')
             .replace("stem_width = 6.0", ""), "the cam is made for a follower"),
     "sense": (scene_text("mushroom", "leading").replace('"with"', '"against"'), '"with" works'),

@@ -86,6 +86,9 @@ WRONG: dict[str, tuple[Keys, Keys, str, str]] = {
     "thin corner": (FLAT, {"corner_radius": 12.0}, "corner_radius", "no_bar_at_corner"),
     "wide shaft": (ROLLERS, {"shaft_diameter": 90.0}, "shaft_diameter", "slot_meets_pin"),
     "wide pins": (ROLLERS, {"pin_diameter": 90.0}, "pin_diameter", "pin_fills_roller"),
+    # before: without effect
+    "pins of faces": (FLAT, {"pin_diameter": 5.0}, "pin_diameter", "needs_other"),
+    "side of rollers": (ROLLERS, {"side_clearance": 3.0}, "side_clearance", "needs_other"),
 }  # fmt: skip
 
 

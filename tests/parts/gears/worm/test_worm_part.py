@@ -16,12 +16,15 @@ from exporters.formats.read_step import read_step
 from exporters.formats.read_stl import read_stl
 from exporters.formats.stl import write_stl
 from exporters.verification.faces import verify_faced_mesh, verify_faced_solid
+from geometry.base.errors import Nearest
 from parts.base.part import Part
 from parts.base.refusal import SceneError
-from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.files import built_in_scenes
+from parts.scene.load import make_parts, scene_from_dict, tomllib
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart, step_text
 from tests.geometry.gears.worms.screwed import screwed
+from tests.parts.limits import refused as refused_scene
 from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import parts_of
 
@@ -341,3 +344,12 @@ def test_a_shaft_of_the_root_diameter_is_not_thicker_than_it(module: float) -> N
         with pytest.raises(SceneError) as found:
             make_parts(raw, "t")
         assert found.value.code == "worm_shaft_over_root"
+
+
+def test_a_worm_that_is_told_twice_is_refused_beside_its_wheel_too() -> None:
+    """What its wheel has too was taken from that as well, where it has no default: a traceback."""
+    raw = tomllib.loads(built_in_scenes()["worm_set_print"].read_text(encoding="utf-8"))
+    raw["parts"]["worm"]["lead_angle_deg"] = 5.7
+    refusal = refused_scene(raw)
+    assert refusal is not None
+    assert (refusal.key, refusal.nearest) == ("parts.worm.lead_angle_deg", Nearest(None))
