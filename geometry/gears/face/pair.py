@@ -190,7 +190,9 @@ class FacePair(Record, dict=True):
 
         def over(share: Real, which: Index) -> Real:
             at = self.gear.side(FLANK, share, radii[which])
-            return np.sqrt(at.depth**2 + at.radius**2 - at.x**2 - self.pinion.base_radius**2) - length
+            # on the base circle but for rounding
+            along = np.maximum(at.depth**2 + at.radius**2 - at.x**2 - self.pinion.base_radius**2, 0.0)
+            return np.sqrt(along) - length
 
         return self.gear.side(FLANK, _root(over, len(radii)), radii)
 

@@ -541,3 +541,11 @@ def test_a_rack_whose_tip_ends_beyond_the_involute_is_told_how_deep() -> None:
     # profile C has a rounding of 0.25: its involute goes on below the mate's tip
     notes = json.loads(calculate("gear-pair", (*words, "basic_rack=ISO 53 C"), "json", "en"))["notes"]
     assert not any("into the fillet" in note for note in notes)
+
+
+def test_a_face_gear_whose_tips_begin_on_a_base_circle_has_all_its_contact() -> None:
+    """There the way along the line of action was the root of -1e-13 and no number; the ratio came out 0.01 less."""
+    pair = "face-gear module=2 number_of_teeth=60 pinion_number_of_teeth=20 inner_diameter="
+    ends, beside = (values_of(f"{pair}{inner}")["values"]["total_contact_ratio"] for inner in (118.23143, 118.2316))
+    assert ends == pytest.approx(beside, abs=1e-4)
+    assert ends > beside
