@@ -7,7 +7,7 @@ drive angle: a pin's gap is the signed distance of its centre from the exact out
 from __future__ import annotations
 
 import math
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from geometry.gears.pins.cycloidal import CycloidalDisc
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.distance import Indices, least_in_brackets
 from geometry.plane.profile import Label
+
+if TYPE_CHECKING:
+    from geometry.gears.pins.lantern import LanternGear
 
 # |gap| up to this part of the pin's radius is contact
 PIN_CONTACT_TOLERANCE = 1e-8
@@ -33,55 +36,51 @@ _ROUNDS, _NEAR = 10, 9
 _STEPS, _SLIDES = 8, 1e-6
 
 
-class PinMotion(Protocol):
-    """One pin's way past the body that it cuts, over its phase: 0 on the line of centres."""
+class PinMotion(Record):
+    """One pin's way past the body that it cuts, over its phase: 0 on the line of centres.
 
-    @property
-    def number_of_pins(self) -> int:
-        """N."""
-
-    @property
-    def pin_radius(self) -> float:
-        """rho, mm."""
-
-    def centre(self, phase: Real) -> tuple[Complex, Complex]:
-        """The pin's centre in the frame of the cut body, mm, and its rate by the phase."""
-
-    def placement(self, phase: float) -> Placement2:
-        """Frame of the line of centres (origin: the axis of the pins) from that of the body."""
-
-
-class DiscMotion(Record):
-    """A fixed pin seen from a cycloidal disc. The phase is the eccentric's angle less the pin's.
-
-    ``turn`` (rad) and ``shift`` (mm): how far the disc is turned and its eccentricity off the exact ones.
+    ``turn`` (rad) and ``shift`` (mm): how far the body is turned, and its axis off the exact distance from theirs.
     """
 
-    disc: CycloidalDisc
+    body: CycloidalDisc | LanternGear
     turn: float = 0.0
     shift: float = 0.0
 
     @property
     def number_of_pins(self) -> int:
         """N."""
-        return self.disc.number_of_pins
+        return self.body.number_of_pins
 
     @property
     def pin_radius(self) -> float:
         """rho, mm."""
-        return self.disc.pin_diameter / 2
+        return self.body.pin_diameter / 2
+
+    def centre(self, phase: Real) -> tuple[Complex, Complex]:
+        """The pin's centre in the frame of the cut body, mm, and its rate by the phase."""
+        raise NotImplementedError
+
+    def placement(self, phase: float) -> Placement2:
+        """Frame of the line of centres (origin: the axis of the pins) from that of the body."""
+        raise NotImplementedError
+
+
+class DiscMotion(PinMotion):
+    """A fixed pin seen from a cycloidal disc. The phase is the eccentric's angle less the pin's."""
+
+    body: CycloidalDisc
 
     def centre(self, phase: Real) -> tuple[Complex, Complex]:
         """The pin in the disc's frame, mm, and its rate."""
-        z, big = self.disc.number_of_lobes, self.disc.pin_circle_diameter / 2
-        arm = (self.disc.eccentricity + self.shift) * np.exp(1j * phase)
+        z, big = self.body.number_of_lobes, self.body.pin_circle_diameter / 2
+        arm = (self.body.eccentricity + self.shift) * np.exp(1j * phase)
         turned = np.exp(1j * (phase / z - math.pi / z - self.turn))
         return (big - arm) * turned, (1j / z * (big - arm) - 1j * arm) * turned
 
     def placement(self, phase: float) -> Placement2:
         """Frame of the line of centres from the disc's."""
-        turned = self.disc.rotation(phase) + self.turn - phase
-        return Placement2(turned, complex(self.disc.eccentricity + self.shift))
+        turned = self.body.rotation(phase) + self.turn - phase
+        return Placement2(turned, complex(self.body.eccentricity + self.shift))
 
 
 class _Gap:

@@ -28,6 +28,7 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.line_arc import Arc
+from geometry.gears.pins.contact import PinMotion
 from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.gears.teeth.tooth import ToothSide
@@ -302,39 +303,24 @@ def lantern_findings(gear: LanternGear) -> tuple[Finding, ...]:
     return (Finding("contact_ratio_by_root" if cut else "contact_ratio", ratio, 1.0),)
 
 
-class LanternMotion(Record):
-    """A pin of the lantern seen from the gear. The phase is the pin's angle from the line of centres.
+class LanternMotion(PinMotion):
+    """A pin of the lantern seen from the gear. The phase is the pin's angle from the line of centres."""
 
-    ``turn`` (rad) and ``shift`` (mm): how far the gear is turned and the centre distance off the exact ones.
-    """
-
-    gear: LanternGear
-    turn: float = 0.0
-    shift: float = 0.0
-
-    @property
-    def number_of_pins(self) -> int:
-        """N."""
-        return self.gear.number_of_pins
-
-    @property
-    def pin_radius(self) -> float:
-        """rho, mm."""
-        return self.gear.pin_diameter / 2
+    body: LanternGear
 
     def _rotation(self, phase: Real | float) -> Real | float:
         """Rotation of the gear, a space towards the lantern at phase 0, the line of centres along +x."""
-        ratio = self.gear.number_of_pins / self.gear.number_of_teeth
-        return math.pi - self.gear.pitch_angle / 2 - phase * ratio + self.turn
+        ratio = self.body.number_of_pins / self.body.number_of_teeth
+        return math.pi - self.body.pitch_angle / 2 - phase * ratio + self.turn
 
     def centre(self, phase: Real) -> tuple[Complex, Complex]:
         """The pin in the gear's frame, mm, and its rate."""
-        ratio = self.gear.number_of_pins / self.gear.number_of_teeth
-        pin = self.gear.lantern_radius * np.exp(1j * phase)
-        spoke = pin - (self.gear.centre_distance + self.shift)
+        ratio = self.body.number_of_pins / self.body.number_of_teeth
+        pin = self.body.lantern_radius * np.exp(1j * phase)
+        spoke = pin - (self.body.centre_distance + self.shift)
         turned = np.exp(-1j * self._rotation(phase))
         return spoke * turned, (1j * pin + 1j * ratio * spoke) * turned
 
     def placement(self, phase: float) -> Placement2:
         """Frame of the line of centres from the gear's."""
-        return Placement2(float(self._rotation(phase)), complex(self.gear.centre_distance + self.shift))
+        return Placement2(float(self._rotation(phase)), complex(self.body.centre_distance + self.shift))
