@@ -232,8 +232,7 @@ def _active(side: ToothSide | RingSide, ends: tuple[float, float]) -> Curves:
     for curve in (s.curve for s in side.segments if s.label in (Label.FLANK, Label.RELIEF)):
         # a ring's flank is travelled inwards
         curve = curve.base if isinstance(curve, Reversed) else curve
-        if not isinstance(curve, Involute):
-            continue
+        assert isinstance(curve, Involute)
         begin, stop = curve.domain
         a, b = max(begin, curve.roll_at_radius(low)), min(stop, curve.roll_at_radius(high))
         if b > a:

@@ -19,7 +19,7 @@ from functools import lru_cache, partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import CuspError, Nearest, ParameterError, PointedTipError, limit
+from geometry.base.errors import Nearest, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds, nearest
 from geometry.base.placement import Placement2
@@ -194,10 +194,8 @@ def _flank_ends(gear: LanternGear) -> tuple[float, float] | None:
 def _flank_start(gear: LanternGear) -> float | None:
     """u at which the flank leaves the root arc, beyond the cusp of the parallel; None where it never does."""
     flank = gear.flank()
-    try:
-        begin = flank.cusp()
-    except CuspError:
-        return None
+    # pins between which a neck is left are smaller than the path's bend in its middle: their parallel has a cusp
+    begin = flank.cusp()
     return _first_root(lambda u: np.abs(flank.point(u) - gear.cusp) - gear.root_arc_radius, begin, flank.end)
 
 

@@ -144,12 +144,9 @@ class WormRings(RingBuilder):
     def _first(self, outer: list[Use]) -> Index:
         """The vertex (1,) at which a ring begins."""
         number, way = outer[0]
-        place = int(number[0])
-        for bundle in self.edges:
-            if place < len(bundle.start):
-                return (bundle.start if way else bundle.end)[place : place + 1]
-            place -= len(bundle.start)
-        raise IndexError(number)
+        ends = np.cumsum([len(bundle.start) for bundle in self.edges])
+        k = int(np.searchsorted(ends, number[0], side="right"))
+        return (self.edges[k].start if way else self.edges[k].end)[number[:1] - ends[k]]
 
     def _level(self, z: float, outer: list[Use], inner: list[Use], *, up: bool) -> None:
         """A plane ring between two circles."""
