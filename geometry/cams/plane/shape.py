@@ -87,50 +87,25 @@ def _run(cam: DiskCam, start: float, end: float, grow: float) -> list[Segment]:
     if cam.motion.tabled:
         return _table_segments(cam, start, end, grow)
     run: list[Segment] = []
-    for piece in _pieces_between(cam, start, end):
-        fresh = _segments(cam, piece, grow)
-        if run:
-            run += _filling(cam, grow, run[-1].curve, fresh[0].curve, piece.start)
-        run += fresh
+    for piece in cam.motion.pieces:
+        low, high = max(start, piece.start), min(end, piece.end)
+        # a sliver of rounding is no piece
+        if high - low > _SLIVER:
+            fresh = _segments(cam, piece, low, high, grow)
+            if run:
+                run += _filling(cam, grow, run[-1].curve, fresh[0].curve, low)
+            run += fresh
     return run
 
 
-def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece | _Cut]:
-    """The pieces of the motion between two cam angles, cut at both."""
-    found = [(piece, max(start, piece.start), min(end, piece.end)) for piece in cam.motion.pieces]
-    # a sliver of rounding is no piece
-    return [
-        piece if (low, high) == piece.domain else _Cut(piece, low, high)
-        for piece, low, high in found
-        if high - low > _SLIVER
-    ]
-
-
-class _Cut(Record):
-    """A part of a piece of a motion."""
-
-    piece: LawPiece
-    start: float
-    end: float
-
-    @property
-    def domain(self) -> tuple[float, float]:
-        return self.start, self.end
-
-    @property
-    def is_constant(self) -> bool:
-        return self.piece.is_constant
-
-
-def _segments(cam: DiskCam, piece: LawPiece | _Cut, grow: float) -> list[Segment]:
-    """The exact curves over one piece, over growing cam angle, split where their curvature changes sign."""
-    whole = piece.piece if isinstance(piece, _Cut) else piece
-    curve = cam.curve(whole, grow)
+def _segments(cam: DiskCam, piece: LawPiece, low: float, high: float, grow: float) -> list[Segment]:
+    """The exact curves over a part of a piece, over growing cam angle, split where their curvature changes sign."""
+    curve = cam.curve(piece, grow)
     if piece.is_constant:
-        first = complex(curve.point(piece.start))
-        return [Segment(Arc(0j, abs(first), cmath.phase(first), piece.start - piece.end), Label.DWELL)]
-    if isinstance(piece, _Cut):
-        curve = curve.trimmed(piece.start, piece.end)
+        first = complex(curve.point(low))
+        return [Segment(Arc(0j, abs(first), cmath.phase(first), low - high), Label.DWELL)]
+    if (low, high) != piece.domain:
+        curve = curve.trimmed(low, high)
     if (plain := _plain(curve)) is not None:
         return [Segment(plain, Label.CAM)]
     return [Segment(curve.trimmed(a, b), Label.CAM) for a, b in pairwise(curve.quiet_edges())]
