@@ -51,8 +51,8 @@ class LanternMating(Toothed):
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict of all pins over one pitch."""
-        from geometry.gears.pins.contact import pin_contact
-        from geometry.gears.pins.lantern import LanternMotion, lantern_side
+        from geometry.gears.pins.contact import LanternMotion, pin_contact
+        from geometry.gears.pins.lantern import lantern_side
 
         # a lantern that is ahead meets the flanks that a gear would meet that is ahead
         turn = phase_off * self.gear.number_of_pins / self.gear.number_of_teeth if self.gear_first else phase_off

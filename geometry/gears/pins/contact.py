@@ -7,7 +7,6 @@ drive angle: a pin's gap is the signed distance of its centre from the exact out
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,12 +15,10 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import ContactPlace, PairContact, first_least, gear_outline, told_contact, verdict_of
 from geometry.gears.pins.cycloidal import CycloidalDisc
+from geometry.gears.pins.lantern import LanternGear
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.distance import Indices, least_in_brackets
 from geometry.plane.profile import Label
-
-if TYPE_CHECKING:
-    from geometry.gears.pins.lantern import LanternGear
 
 # |gap| up to this part of the pin's radius is contact
 PIN_CONTACT_TOLERANCE = 1e-8
@@ -81,6 +78,29 @@ class DiscMotion(PinMotion):
         """Frame of the line of centres from the disc's."""
         turned = self.body.rotation(phase) + self.turn - phase
         return Placement2(turned, complex(self.body.eccentricity + self.shift))
+
+
+class LanternMotion(PinMotion):
+    """A pin of the lantern seen from the gear. The phase is the pin's angle from the line of centres."""
+
+    body: LanternGear
+
+    def _rotation(self, phase: Real | float) -> Real | float:
+        """Rotation of the gear, a space towards the lantern at phase 0, the line of centres along +x."""
+        ratio = self.body.number_of_pins / self.body.number_of_teeth
+        return math.pi - self.body.pitch_angle / 2 - phase * ratio + self.turn
+
+    def centre(self, phase: Real) -> tuple[Complex, Complex]:
+        """The pin in the gear's frame, mm, and its rate."""
+        ratio = self.body.number_of_pins / self.body.number_of_teeth
+        pin = self.body.lantern_radius * np.exp(1j * phase)
+        spoke = pin - (self.body.centre_distance + self.shift)
+        turned = np.exp(-1j * self._rotation(phase))
+        return spoke * turned, (1j * pin + 1j * ratio * spoke) * turned
+
+    def placement(self, phase: float) -> Placement2:
+        """Frame of the line of centres from the gear's."""
+        return Placement2(float(self._rotation(phase)), complex(self.body.centre_distance + self.shift))
 
 
 class _Gap:

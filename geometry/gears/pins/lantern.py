@@ -22,13 +22,11 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import Nearest, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds, nearest
-from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace, with_value
 from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Complex, Real, end_point, start_point
+from geometry.curves.curve import Real, end_point, start_point
 from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.line_arc import Arc
-from geometry.gears.pins.contact import PinMotion
 from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.gears.teeth.tooth import ToothSide
@@ -299,26 +297,3 @@ def lantern_findings(gear: LanternGear) -> tuple[Finding, ...]:
         return ()
     cut = gear.root_clearance > 0 and not with_value(gear, "root_clearance", 0.0).contact_ratio < 1
     return (Finding("contact_ratio_by_root" if cut else "contact_ratio", ratio, 1.0),)
-
-
-class LanternMotion(PinMotion):
-    """A pin of the lantern seen from the gear. The phase is the pin's angle from the line of centres."""
-
-    body: LanternGear
-
-    def _rotation(self, phase: Real | float) -> Real | float:
-        """Rotation of the gear, a space towards the lantern at phase 0, the line of centres along +x."""
-        ratio = self.body.number_of_pins / self.body.number_of_teeth
-        return math.pi - self.body.pitch_angle / 2 - phase * ratio + self.turn
-
-    def centre(self, phase: Real) -> tuple[Complex, Complex]:
-        """The pin in the gear's frame, mm, and its rate."""
-        ratio = self.body.number_of_pins / self.body.number_of_teeth
-        pin = self.body.lantern_radius * np.exp(1j * phase)
-        spoke = pin - (self.body.centre_distance + self.shift)
-        turned = np.exp(-1j * self._rotation(phase))
-        return spoke * turned, (1j * pin + 1j * ratio * spoke) * turned
-
-    def placement(self, phase: float) -> Placement2:
-        """Frame of the line of centres from the gear's."""
-        return Placement2(float(self._rotation(phase)), complex(self.body.centre_distance + self.shift))

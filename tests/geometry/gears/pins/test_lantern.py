@@ -14,10 +14,9 @@ from hypothesis import strategies as st
 
 from geometry.base.errors import OffsetError, ParameterError, PointedTipError
 from geometry.base.record import replace
-from geometry.gears.pins.contact import pin_contact
+from geometry.gears.pins.contact import LanternMotion, pin_contact
 from geometry.gears.pins.lantern import (
     LanternGear,
-    LanternMotion,
     checked_lantern_gear,
     lantern_findings,
     lantern_side,
