@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import product
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Complex, Flags, Real
+from geometry.curves.curve import Complex, Flags, Indices, Real
 from geometry.curves.line_arc import lines_cross
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
@@ -41,8 +42,13 @@ class Label(Record):
     @property
     def box(self) -> tuple[float, float, float, float]:
         """Left, top, right, bottom, with some room about it."""
+        left, top, right, low = self.boxes(self.x, self.y)
+        return left, top, right, low
+
+    def boxes(self, x: Any, y: Any) -> tuple[Any, Any, Any, Any]:
+        """The same where it stands elsewhere, numbers or arrays."""
         half, room = _LETTER * self.size * len(self.text) / 2, _ROOM * self.size
-        return self.x - half - room, self.y - self.size - room, self.x + half + room, self.y + room
+        return x - half - room, y - self.size - room, x + half + room, y + room
 
     @property
     def line(self) -> tuple[complex, complex] | None:
@@ -90,24 +96,36 @@ class Tops:
         return set(np.unique(self._top).tolist())
 
     def shows(self, label: Label, number: int) -> int:
-        """How well a word stands for the part of this number: 2 on it alone, 1 beside it alone, 0 not so.
+        """How well a word stands where it is."""
+        return int(self.ranks(label, np.array([label.x]), np.array([label.y]), number)[0])
+
+    def ranks(self, label: Label, x: Real, y: Real, number: int) -> Indices:
+        """How well a word stands at places for the part of this number: 2 on it alone, 1 beside it alone, 0 not so.
 
         On another part it would name that one; over an edge it could not be read.
         """
-        left, top, right, low = label.box
-        if not self._holds(label):
-            return 0
+        left, top, right, low = label.boxes(x, y)
+        sums = [np.pad(f.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0))) for f in (self._top == number, self._top < 0)]
+
+        def counted(left: Real, top: Real, right: Real, low: Real) -> tuple[Indices, Indices, Indices]:
+            """Cells within boxes that show the part, that show none, and all."""
+            places = ((top, self._low.imag), (low, self._low.imag), (left, self._low.real), (right, self._low.real))
+            cells = [((at - corner) / self._step).astype(int) + k % 2 for k, (at, corner) in enumerate(places)]
+            one, two, begin, end = (side.clip(0, len(self._top)) for side in cells)
+            own, none = (s[two, end] - s[one, end] - s[two, begin] + s[one, begin] for s in sums)
+            return own, none, (two - one) * (end - begin)
+
+        own, none, cells = counted(left, top, right, low)
+        corner, last, (begin, end) = self._low, self._high, self._picture
+        beyond = (left < corner.real) | (top < corner.imag) | (right > last.real) | (low > last.imag)
         # right above or below its part others may stand beside its ends, as in a row
         high, deep = top - label.size, low + label.size
-        beside = self._within(left - label.size, high, right + label.size, deep)
-        middle = self._within(label.x - label.size, high, label.x + label.size, deep)
-        under = set(self._within(left, top, right, low).ravel().tolist())
-        if left < self._low.real or top < self._low.imag or right > self._high.real or low > self._high.imag:
-            under.add(-1)
-        if under == {number}:
-            return 2
-        near = (set(cells.ravel().tolist()) for cells in (beside, middle))
-        return int(under == {-1} and any({number} <= seen <= {number, -1} for seen in near))
+        beside = counted(left - label.size, high, right + label.size, deep)
+        middle = counted(x - label.size, high, x + label.size, deep)
+        near = np.any([(n > 0) & (n + free == every) for n, free, every in (beside, middle)], axis=0)
+        held = (left >= begin.real) & (top >= begin.imag) & (right <= end.real) & (low <= end.imag)
+        is_on = ~beyond & (cells > 0) & (own == cells)
+        return np.asarray(held * np.where(is_on, _BEST, near & (none == cells) & (beyond | (cells > 0))))
 
     def plain(self, boxes: Real) -> Flags:
         """Which boxes (left, top, right, bottom along the last axis) are whole in the picture, over no edge."""
@@ -143,12 +161,6 @@ class Tops:
         other = (seen[1:, 1:] != seen[1:, :-1]) | (seen[1:, 1:] != seen[:-1, 1:])
         return np.pad(other.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
 
-    def _holds(self, label: Label) -> bool:
-        """Whether a word stands whole in the picture."""
-        left, top, right, low = label.box
-        begin, end = self._picture
-        return left >= begin.real and top >= begin.imag and right <= end.real and low <= end.imag
-
     def spots(self, number: int) -> list[complex]:
         """Places well within what is seen of the part of this number, first one in the midst of them."""
         layers = [self._around == number]
@@ -161,12 +173,6 @@ class Tops:
         outwards: list[complex] = at[np.abs(at - at.mean()).argsort(kind="stable")].tolist()
         return outwards[:: max(len(outwards) // _SPOTS, 1)][:_SPOTS]
 
-    def _within(self, left: float, top: float, right: float, low: float) -> NDArray[np.int_]:
-        """The uppermost parts in a box."""
-        corner, step = self._low, self._step
-        rows = slice(max(int((top - corner.imag) / step), 0), max(int((low - corner.imag) / step) + 1, 0))
-        return self._top[rows, max(int((left - corner.real) / step), 0) : max(int((right - corner.real) / step) + 1, 0)]
-
 
 def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Label | None]:
     """The words in their order, each at the free place nearest to where it was wanted, each but once.
@@ -176,16 +182,16 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
     made: list[Label | None] = [None] * len(wanted)
     taken = np.empty((0, 4))
     for number, label in enumerate(wanted):
-        best, found = 0, None
+        found = None
         if any(other and other.text == label.text for other in made) or (tops and not tops.seen(number)):
             continue
         for one in (label, replace(label, size=_SMALL * label.size)) if tops else (label,):
-            for place in _apart(list(_places(one)), taken):
-                if (rank := tops.shows(place, number) if tops else _BEST) > best:
-                    best, found = rank, place
-                if best == _BEST:
-                    break
-            if best:
+            x, y = _places(one, taken)
+            ranks = tops.ranks(one, x, y, number) if tops else np.full(x.shape, _BEST)
+            if ranks.size and (best := ranks.max()):
+                # of those that are as good the nearest
+                at = int((ranks == best).argmax())
+                found = replace(one, x=float(x[at]), y=float(y[at]))
                 break
         made[number] = found
         taken = np.vstack([taken, found.box]) if found else taken
@@ -203,10 +209,15 @@ def _led(label: Label, number: int, tops: Tops, made: Sequence[Label]) -> Label 
     least, found = math.inf, None
     for spot, size in product(tops.spots(number), (label.size, _SMALL * label.size)):
         for place in _around(replace(label, x=spot.real, y=spot.imag, size=size, leads=spot), tops, taken):
-            assert place.line
+            line = place.line
+            assert line
             # what is as long at full size is not written smaller
-            length = abs(place.line[1] - place.line[0]) / size + _EDGE * tops.edges(place.line)
-            if length < least and (length := length + _CROSSING * _crossed(place, taken, lines)) < least:
+            length = abs(line[1] - line[0]) / size
+            if (
+                length < least
+                and (length := length + _EDGE * tops.edges(line)) < least
+                and (length := length + _CROSSING * _crossed(place, taken, lines)) < least
+            ):
                 least, found = length, place
     return found
 
@@ -230,12 +241,6 @@ def _runs(start: complex, end: complex, boxes: Real) -> Flags:
     return np.asarray(np.maximum(first, 0.0) < np.minimum(last, 1.0))
 
 
-def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
-    """Those whose boxes share nothing with boxes (rows of left, top, right, bottom)."""
-    covered = _covered(np.array([place.box for place in places]).reshape(-1, 4), taken)
-    return [place for place, hidden in zip(places, covered, strict=True) if not hidden]
-
-
 def _covered(boxes: Real, taken: Real) -> Flags:
     """Which boxes (left, top, right, low along the last axis) share something with one of those taken (in rows)."""
     left, top, right, low = np.moveaxis(boxes[..., None], -2, 0)
@@ -254,8 +259,8 @@ def _around(label: Label, tops: Tops, taken: Real) -> Iterator[Label]:
         yield replace(label, x=label.x + shift.real, y=label.y + shift.imag)
 
 
-def _places(label: Label) -> Iterator[Label]:
-    """The wanted place, then places ever farther from it."""
+def _places(label: Label, taken: Real) -> tuple[Real, Real]:
+    """The wanted place, then places ever farther from it, in no box (rows of left, top, right, bottom)."""
     step, wide = label.size * (1 + 2 * _ROOM), _LETTER * label.size * len(label.text)
     shifts = [(0.0, 0.0)]
     for ring in range(1, _RINGS + 1):
@@ -263,6 +268,8 @@ def _places(label: Label) -> Iterator[Label]:
         for side in (1, -1):
             shifts += [(side * wide * share, k * step) for share in (0.6, 1.1, 1.7) for k in (ring, -ring)]
             shifts += [(side * wide * 1.1 * (ring // 4 + 1), k * step) for k in (0, ring, -ring)]
-    shifts.sort(key=lambda s: abs(s[0]) + 1.5 * abs(s[1]))
-    for x, y in shifts:
-        yield replace(label, x=label.x + x, y=label.y + y)
+    right, down = np.array(shifts).T
+    nearest = np.argsort(np.abs(right) + 1.5 * np.abs(down), kind="stable")
+    x, y = label.x + right[nearest], label.y + down[nearest]
+    free = ~_covered(np.stack(label.boxes(x, y), axis=-1), taken)
+    return x[free], y[free]

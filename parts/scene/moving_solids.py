@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 # poses of one pair at most; of one whose teeth the plane contact has decided; more in the search about the worst
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
 # the first way along a path in larger steps; how far gaps are sought, as a part of the smaller solid's size: each costs
-# what lies within it, and too short a one steps through poses
-_FIRST, _SOUGHT = 3, 0.2
+# what lies within it, and too short a one steps through poses; the first of the lengths for which they are
+_FIRST, _SOUGHT, _SHORTER = 3, 0.2, 8**2
 # of a height in what two pairs have in common; mm: what is none
 _DIGITS, _NO_HEIGHT = 7, 1e-9
 
@@ -343,7 +343,10 @@ class Meeting:
 
     def _apart(self, moved: Any) -> tuple[float, float]:
         one = self.shapes[0].solid
-        gap = float(one.min_gap(moved, self.sought))
+        # what lies within the length costs: short ones first, each eight times the last
+        length = self.sought / _SHORTER
+        while (gap := float(one.min_gap(moved, length))) >= length > 0 and length < self.sought:
+            length *= 8
         return gap, common_volume((one, moved)) if gap <= 0 else 0.0
 
 
