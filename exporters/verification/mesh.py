@@ -11,6 +11,7 @@ from exporters.verification.chamfers import chamfer_distances, slice_points
 from exporters.verification.outlines import verify_loops
 from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures
+from geometry.base.distinct import distinct
 from geometry.curves.curve import Flags, Real
 from geometry.plane.measure import profile_area, profile_length
 from geometry.solids.body import Body, Wall
@@ -152,7 +153,7 @@ def _verify_walls(
         layers = [(pair[0], triangles)]
     else:
         low, high = z[triangles].min(axis=1), z[triangles].max(axis=1)
-        slices = np.unique(z[triangles])
+        slices = distinct(z[triangles])
         if tuple(slices[[0, -1]]) != pair or np.any(np.searchsorted(slices, high) - np.searchsorted(slices, low) != 1):
             return [(Verdict({}, (fault("a chamfer does not run from slice to slice between its ends"),)), 0.0)]
         layers = [(level, triangles[low == level]) for level in slices[:-1].tolist()]

@@ -32,8 +32,10 @@ def verify_twisted(
     if not len(triangles):
         return Verdict({"max_deviation": np.inf, "shortest_edge": np.inf}, (fault("a screw surface is missing"),))
     profile, z = body.loop_profile(wall.lower), mesh.vertices[:, 2]
-    levels, index = np.unique(z[triangles], return_inverse=True)
-    index = index.reshape(triangles.shape)
+    used = np.zeros(len(z), dtype=bool)
+    used[triangles] = True
+    levels, level_of = np.unique(z[used], return_inverse=True)
+    index = level_of[np.cumsum(used)[triangles] - 1]
     runs = not np.any(np.ptp(index, axis=1) != 1) and (levels[0], levels[-1]) == body.height(wall)
     failures = unless(runs, "a screw surface does not run from slice to slice between its ends")
     area, length = abs(profile_area(profile)), profile_length(profile)
@@ -55,7 +57,7 @@ def verify_twisted(
     places = _PLACES if len(triangles) < _MANY else _PLACES[3:4]
     shares = places / places.sum(axis=1, keepdims=True)
     inside = np.einsum("pk,nkc->npc", shares, corners).reshape(-1, 3)
-    points = np.concatenate([mesh.vertices[np.unique(triangles)], inside])
+    points = np.concatenate([mesh.vertices[used], inside])
     deviation = float(distance_to_profile(body.moved_back(wall, points), profile, trusted=declared).max())
     failures += deviation_failures(deviation, declared, tolerance, profile.reach())
     shortest = float(edge_lengths(corners).min())

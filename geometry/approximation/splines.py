@@ -395,18 +395,18 @@ def _relaxed(
     least = min(least, tolerance) if tolerance > 0 else least
     poles = _with_ends(ends, poles, least)
     best: _Draft | None = None
-    on_curve, points = curve.point(t), layout.points(poles)
+    known, points = curve.derivatives(t, 1), layout.points(poles)
     for index, weight in enumerate(weights):
-        change = _correction(ends, layout, on_curve - points, curve.tangent(t), weight)
+        change = _correction(ends, layout, known[0] - points, curve.tangent(t), weight)
         poles = _with_ends(ends, poles + change, least)
         points = layout.points(poles)
-        before, t = t, feet(curve, points, t, steps=2)
+        before, t = t, feet(curve, points, t, steps=2, known=known)
         if not np.all(np.diff(t.ravel()) > 0):
             # where the curve all but stands still a step to a foot leads too far: it stays, and feet keep their order
-            nearer = np.abs(points - curve.point(t)) < np.abs(points - on_curve)
+            nearer = np.abs(points - curve.point(t)) < np.abs(points - known[0])
             t = np.maximum.accumulate(np.where(nearer, t, before).ravel()).reshape(t.shape)
-        on_curve = curve.point(t)
-        errors = np.abs(points - on_curve).max(axis=1)
+        known = curve.derivatives(t, 1)
+        errors = np.abs(points - known[0]).max(axis=1)
         error = float(errors.max())
         if best is None or error < best.error:
             best = _Draft(layout, poles, t, errors, error, curve.domain)

@@ -12,6 +12,7 @@ Where a curve knows no such bounds, twice what E is off its Hermite cubic at the
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -198,14 +199,17 @@ def basis_matrix(degree: int, knots: Real, t: Real) -> Real:
     return matrix
 
 
-def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -> Real:
+def feet(
+    curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS, known: Sequence[Complex] | None = None
+) -> Real:
     """Curve parameters of the perpendiculars' feet by Newton's method from a near guess, within the domain.
 
-    Without the curvature term: the error falls by distance x curvature a step.
+    Without the curvature term: the error falls by distance x curvature a step. ``known``: points and derivatives of the
+    curve at the guess.
     """
     t, (low, high) = guess, curve.domain
     for _ in range(steps):
-        at, first = curve.derivatives(t, 1)
+        (at, first), known = known or curve.derivatives(t, 1), None
         square = np.maximum(np.abs(first) ** 2, 1e-300)
         t = np.minimum(np.maximum(t + (np.conj(first) * (points - at)).real / square, low), high)
     return t

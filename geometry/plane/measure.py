@@ -189,7 +189,7 @@ def _quick_distance(points: Complex, curves: Sequence[Curve]) -> Real:
         first, last = index * _COARSE_SAMPLES - 1, (index + 1) * _COARSE_SAMPLES
         low, high, end = np.searchsorted(ranks, [first, last + 1, len(samples) - 1])
         beyond = order[end:] if first < 0 else order[:0], order[: np.searchsorted(ranks, last + 1 - len(samples))]
-        mine = np.unique(np.concatenate([order[low:high], *beyond]))
+        mine = np.concatenate([order[low:high], *beyond])
         if mine.size:
             start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
             found = _projected(points[mine], curve, parameters[index], start, newton=False)

@@ -13,7 +13,7 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.measure import distance_to_nearest
+from geometry.plane.measure import distance_to_nearest, profile_disc
 from geometry.plane.profile import Profile
 from parts.base.texts import N_
 from parts.drawing.canvas import TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, draw, text_width
@@ -42,8 +42,16 @@ class OnOutlines(Record):
     def check(self, sheet: ReadSheet, taken: Taken) -> None:
         """How far the lines of the file are from the nearest one."""
         points = np.concatenate([np.zeros(0, np.complex128), *(p for layer, p in sheet.samples if layer == "CUT")])
-        near = [distance_to_nearest(points - origin, profiles, taken.room) for origin, profiles in self.placed]
-        worst = float(np.min(near, axis=0).max(initial=0.0))
+        discs = [[(origin + at, reach) for at, reach in map(profile_disc, own)] for origin, own in self.placed]
+        gaps = [[(np.abs(points - at), reach) for at, reach in own] for own in discs]
+        most = np.min([gap + reach for own in gaps for gap, reach in own], axis=0)
+        near = np.full(points.shape, np.inf)
+        for (origin, profiles), own in zip(self.placed, gaps, strict=True):
+            # none is asked of points that are nearer to another one for certain
+            mine = np.min([gap - reach for gap, reach in own], axis=0) <= most
+            found = distance_to_nearest(points[mine] - origin, profiles, taken.room)
+            near[mine] = np.minimum(near[mine], found)
+        worst = float(near.max(initial=0.0))
         taken.measured["max_deviation"] = max(worst, taken.measured.get("max_deviation", 0.0))
         taken.unless(worst <= taken.room, N_("outlines deviate by {worst:.3g} mm from the exact ones"), worst=worst)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +15,13 @@ from exporters.production import paper_models
 from exporters.production.plan import plan_build
 from exporters.verification.verdict import Verdict
 from geometry.base.record import replace
-from geometry.curves.curve import end_point, start_point
+from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Approximation, Contour
+from geometry.plane.measure import distance_to_nearest
+from geometry.plane.profile import Profile
+from parts.drawing.readback import ReadSheet, Taken
+from parts.drawing.tiles import OnOutlines
 from parts.scene.load import scene_from_toml
 
 PLATE = """
@@ -137,6 +142,28 @@ def test_a_model_is_held_against_the_exact_outline(many: bool, tmp_path: Path, m
 
 def plate_of(name: str, width: float, height: float) -> str:
     return f'[parts.{name}]\nkind = "plate"\nwidth = {width}\nheight = {height}\nface_width = 3.0\n'
+
+
+def test_points_on_a_sheet_are_held_against_the_outline_beside_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every one was measured thoroughly from all outlines of its sheet, a tenth of a build of a lesson."""
+    turn, asked = np.exp(2j * np.pi * np.arange(48) / 48), []
+    plan = plan_build(scene_from_toml(PLATE.encode(), "s.toml", "s"), "s", [], [])
+    profiles = plan.parts["second"].section(0.0).region.profiles()
+    points = np.concatenate([np.linspace(-10, 10, 9) + 5j, 2.0 + (0.1 + 5.0) * 1j + 0.0 * turn])
+    measured = distance_to_nearest
+
+    def counted(points: Complex, profiles: Sequence[Profile], trusted: float) -> Real:
+        asked.append(points.size)
+        return measured(points, profiles, trusted)
+
+    monkeypatch.setattr("parts.drawing.tiles.distance_to_nearest", counted)
+    places = (0j, 100 + 0j, 60j)
+    sheet = ReadSheet(samples=[("CUT", points + at) for at in places])
+    taken = Taken(0.2)
+    OnOutlines(tuple((at, profiles) for at in places)).check(sheet, taken)
+    assert taken.measured["max_deviation"] == pytest.approx(0.1)
+    assert not taken.failures
+    assert sum(asked) == 3 * points.size
 
 
 def test_parts_that_one_sheet_holds_share_it_ten_millimetres_apart() -> None:
