@@ -51,8 +51,8 @@ _MOST_EDGES = 4_000_000
 # where slices and chords are counted, so far above their estimate a tolerance is tried, and sought so near
 _ABOVE, _NEAR = 1.05, 0.05
 # how often the tolerance that digits hold is tried; at how many of it triangles of bent faces are counted, and by how
-# much more of them there may be, which come in steps
-_DOUBLINGS, _COARSE, _SPARE = 6, 64.0, 1.25
+# much more of them there may be, which come in steps and with finer splines
+_DOUBLINGS, _COARSE, _SPARE = 6, 16.0, 1.75
 # of these so many times fewer: writing and reading back takes 1.1 kB of memory an edge of an STL, 2.8 of a 3MF's text
 _HEAVIER = {"stl": 2, "3mf": 4}
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid

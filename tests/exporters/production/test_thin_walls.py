@@ -117,14 +117,17 @@ def test_what_is_offered_for_more_than_digits_hold_is_made(tmp_path: Path, monke
     assert shape_of(job)
 
 
-@pytest.mark.parametrize("form", ["stl", "3mf"])
+BEVEL = {"kind": "bevel_gear", "number_of_teeth": 12, "mate_number_of_teeth": 24, "spiral_angle_deg": 35.0}
+FACE = {"kind": "face_gear", "number_of_teeth": 40, "pinion_number_of_teeth": 20}
+
+
+@pytest.mark.parametrize(("form", "keys"), [("stl", BEVEL), ("3mf", BEVEL), ("stl", FACE)])
 def test_what_is_offered_for_too_many_triangles_of_bent_faces_is_made(
-    form: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    form: str, keys: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It was sought by whole meshes, 11 s and 660 MB for a spiral gear, and where digits held nothing was offered."""
-    gear = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 12, "mate_number_of_teeth": 24,
-            "spiral_angle_deg": 35.0, "face_width": 6.0}  # fmt: skip
-    most = 100_000
+    gear = {**keys, "module": 2.0}
+    most = 200_000
     monkeypatch.setattr("exporters.formats.registry._MOST_EDGES", {"stl": 2, "3mf": 4}[form] * most)
     monkeypatch.setattr("parts.solids.face_mesh._MOST_TRIANGLES", most)
     for tolerance, code in ((1e-7, "finer_than_mesh_digits"), (1e-4, "too_many_edges")):
