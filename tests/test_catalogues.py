@@ -440,7 +440,7 @@ def test_the_archives_carry_the_catalogues(tmp_path: Path) -> None:
         (tree / file.name).write_bytes(file.read_bytes())
     for package in ("parts", "exporters", "geometry"):
         for file in (ROOT / package).rglob("*"):
-            if file.suffix in (".po", ".mo", ".psv") or file.name == "__init__.py":
+            if file.suffix in (".po", ".mo", ".psv") or file.name in ("__init__.py", "py.typed"):
                 goal = tree / file.relative_to(ROOT)
                 goal.parent.mkdir(parents=True, exist_ok=True)
                 goal.write_bytes(file.read_bytes())
@@ -455,6 +455,9 @@ def test_the_archives_carry_the_catalogues(tmp_path: Path) -> None:
     for table in (file for package in ("parts", "exporters") for file in (HOUSE / package).rglob("*.psv")):
         assert sum(name.endswith(f"/{table.relative_to(HOUSE)}") or name == str(table.relative_to(HOUSE))
                    for name in names) == 2  # fmt: skip
+    # the types of all three packages hold for whoever imports them (PEP 561)
+    for package in ("parts", "exporters", "geometry"):
+        assert sum(name.endswith(f"{package}/py.typed") for name in names) == 2
 
 
 def test_tomllib_says_nothing_of_its_own() -> None:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
+from parts.base.kind import Kind
 from parts.base.materials import density_of, thickness_told
+from parts.base.part_keys import MaterialKeys
 from parts.base.texts import told_in, words
 
 if TYPE_CHECKING:
@@ -19,8 +21,7 @@ if TYPE_CHECKING:
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
-    from parts.base.kind import Kind, Report, Stock
-    from parts.base.part_keys import MaterialKeys
+    from parts.base.kind import Report, Stock
     from parts.base.readback import Probe
 
 
