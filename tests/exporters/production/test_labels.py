@@ -159,7 +159,8 @@ def test_a_letter_that_there_is_not_is_refused(tmp_path: Path, capsys: pytest.Ca
 
 
 def test_every_letter_is_there_and_unlike_the_others() -> None:
-    letters = string.ascii_letters + string.digits + "ЫЭЁЪыэёъ" + _UKRAINIAN + _UKRAINIAN.lower() + ".,:;-+=/()°"
+    letters = string.ascii_letters + string.digits + "ЫЭЁЪыэёъ" + _UKRAINIAN + _UKRAINIAN.lower() + ".,:;-+=/()°±«»"
+    letters += "ØøŁłßÄÖÜäöüÀàÉéÊêÇçÑñÅåČčĎŘřŠšĚěŮůŽžĄąĘęŚśŻżÓóŐőŢţȘșĂăĀā"
     assert not unknown_letters(letters)
     alike = dict(zip("АВЕКМНОРСТХІаеорсухі", "ABEKMHOPCTXIaeopcyxi", strict=True))
     seen: dict[object, str] = {}
@@ -167,6 +168,23 @@ def test_every_letter_is_there_and_unlike_the_others() -> None:
         strokes = lettered((letter,), 12.0)
         form = tuple(tuple((round(p.real, 6), round(p.imag, 6)) for p in stroke) for stroke in strokes)
         assert alike.get(letter, letter) == seen.setdefault(form, alike.get(letter, letter))
+
+
+def test_marks_stand_over_or_under_their_letters() -> None:
+    """The letter itself is the one without them; none touches it or reaches the line above or below."""
+    for marked, plain, over in (("ÖÉŠÑÅő", "OESNAo", True), ("äéůž", "aeuz", True), ("Çşț", "Cst", False)):
+        for sign, letter in zip(marked, plain, strict=True):
+            strokes = lettered((sign,), 12.0)
+            bare = [np.array(stroke) for stroke in lettered((letter,), 12.0)]
+            own, marks = [np.array(s) for s in strokes[: len(bare)]], np.concatenate(strokes[len(bare) :])
+            moved = own[0][0] - bare[0][0]
+            for stroke, there in zip(own, bare, strict=True):
+                assert stroke - moved == pytest.approx(there, abs=1e-9)
+            body = np.concatenate(own).imag
+            assert np.ptp(np.concatenate([*own, marks]).imag) <= 20.0 - 4.0
+            assert marks.imag.min() > body.max() + 0.5 if over else marks.imag.min() < body.min() - 1.0
+    assert lettered(("о\u0308 Й",), 6.0) == lettered(("o\u0308 И\u0306",), 6.0)
+    assert unknown_letters("Öl ų ḱ x⃗") == "\u20d7"
 
 
 def test_lines_of_a_name_stand_in_the_middle_of_each_other() -> None:
