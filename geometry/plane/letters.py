@@ -63,7 +63,7 @@ _LETTERS = {
     "ь": "0c04 ~09497976744404", "э": "~0a0c4c7c7874440406 3878", "ю": "0c04 0838 ~3c383494989c3c",
     "я": "7c74 ~7c3c0c0a083878 3804",
 }  # fmt: skip
-_LIKE = dict(zip("АВЕКМНОРСТХІаеорсухі−–—’“”„", "ABEKMHOPCTXIaeopcyxi---'\"\"\"", strict=True))
+_LIKE = dict(zip("АВЕКМНОРСТХІаеорсухі−–—’“”„", 'ABEKMHOPCTXIaeopcyxi---\'"""', strict=True))
 # what stands over the middle of a capital, or under any letter: its middle at 2
 _OVER = {
     "\u0300": "1j3h", "\u0301": "1h3j", "\u0302": "0h2j4h", "\u0303": "~0h0j4h4j", "\u0304": "0i4i",
@@ -84,8 +84,8 @@ def _known(sign: str) -> bool:
     """Whether there is such a letter, or one that its marks stand at."""
     if _LIKE.get(sign, sign) in _LETTERS:
         return True
-    base, *marks = normalize("NFD", sign)
-    return _LIKE.get(base, base) in _LETTERS and all(mark in _OVER or mark in _UNDER for mark in marks)
+    apart = normalize("NFD", sign)
+    return _LIKE.get(apart[0], apart[0]) in _LETTERS and all(mark in _OVER or mark in _UNDER for mark in apart[1:])
 
 
 def lettered(lines: tuple[str, ...], height: float) -> tuple[Stroke, ...]:
@@ -123,7 +123,8 @@ def _row(text: str) -> list[list[complex]]:
 
 def _letter(sign: str) -> list[Complex]:
     """The strokes of a letter, from x = 0 on, its marks among them."""
-    base, *marks = (sign,) if _LIKE.get(sign, sign) in _LETTERS else normalize("NFD", sign)
+    apart = sign if _LIKE.get(sign, sign) in _LETTERS else normalize("NFD", sign)
+    base, marks = apart[0], apart[1:]
     strokes = [_stroke(one) for one in _LETTERS[_LIKE.get(base, base)].split()]
     top, middle = max(p.imag.max() for p in strokes), max(p.real.max() for p in strokes) / 2
     over = complex(middle - 2, 0 if top > _TALL else -_LOWER)
