@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from itertools import combinations
 from typing import Any
 
@@ -27,6 +28,8 @@ from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 # boundaries go this far into the material, as a part of the solid's size, and the mesh half of it
 INSET = 2e-4
 _SHARE = 0.5
+# where a wall is thin they go in by less
+_INSETS = (1.0, 1 / 4, 1 / 16, 1 / 64)
 # planes about a vertex that turn by less, squared, are one
 _FLAT = 1e-3
 # of the lesser solid: less in common is rounding
@@ -150,18 +153,15 @@ def inner_solid(part: Part) -> Any:
 
 
 def _inner_solid(part: Part) -> Any:
-    inset = INSET * part.body(0.0).section_reach()
-    for _ in range(8):
-        try:
-            body = part.body(0.0)
-            by_faces = isinstance(body, FacedBody)
-            body = body if by_faces else part.body(-inset)
-            mesh = body_mesh(body, mesh_outlines(body, _SHARE * inset, 0.0))
-        except GeometryError:
-            inset /= 4
-            continue
-        return meshed_solid(replace(mesh, vertices=_moved_in(mesh, inset)) if by_faces else mesh)
-    raise GeometryError(f"no mesh lies within {part.id}")
+    body = part.body(0.0)
+    inset = INSET * body.section_reach()
+    for share in () if isinstance(body, FacedBody) else _INSETS:
+        with suppress(GeometryError):
+            inner = part.body(-share * inset)
+            return meshed_solid(body_mesh(inner, mesh_outlines(inner, _SHARE * share * inset, 0.0)))
+    # what is told by its faces, or has a land that no such boundary leaves
+    mesh = body_mesh(body, mesh_outlines(body, _SHARE * inset, 0.0))
+    return meshed_solid(replace(mesh, vertices=_moved_in(mesh, inset)))
 
 
 def meshed_solid(mesh: Mesh) -> Any:

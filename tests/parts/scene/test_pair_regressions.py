@@ -49,13 +49,16 @@ def test_relieved_tips_leave_the_verdict_decided(kind: str, second: dict[str, An
     assert verdict in ({Verdict.CLEAR.value} if backlash else {Verdict.CONTACT.value, Verdict.CLEAR.value})
 
 
-def test_a_wall_that_is_too_thin_to_mesh_is_no_traceback() -> None:
+def test_a_wall_that_no_offset_leaves_is_decided() -> None:
+    """The rim is 0.025 mm thick: boundaries within it were refused, and the pair was left undecided."""
     second = {"kind": "spur_gear", "number_of_teeth": 31}
     raw = pair("external_gear_pair", second, web={"thickness": 3.0, "rim_diameter": 28.95})
-    (found,) = checked(raw)["solids"]
-    assert (found["first"], found["second"], found["verdict"]) == ("p", "w", "undecided")
-    raw["parts"]["p"]["web"]["rim_diameter"] = 28.0
     assert "solids" not in checked(raw)
+    # a pin through the web's recess and the rim
+    raw["parts"]["q"] = {"kind": "pin", "diameter": 2.0, "length": 1.0}
+    raw["instances"] = {"p": {}, "w": {}, "q": {"at": [14.4, 0.0, 0.0]}}
+    (found,) = checked(raw)["solids"]
+    assert (found["first"], found["second"], found["verdict"]) == ("p", "q", "overlap")
 
 
 @pytest.mark.parametrize("backlash", [0.0, 0.1])
