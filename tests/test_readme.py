@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from functools import cache
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from exporters.documents.topics import TOPICS
@@ -142,6 +145,20 @@ def test_the_ukrainian_page_says_what_the_english_one_does() -> None:
 )  # fmt: skip
 def test_what_is_not_there_is_noticed(spoiled: str) -> None:
     assert len(unknown(spoiled)) == 1
+
+
+def test_the_script_gives_what_it_says() -> None:
+    """Its last gear, z 111 m 2: tips at m (z + 2) / 2, roots at m (z - 2.5) / 2, an area between the two circles."""
+    (script,) = re.findall(r"^```python\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+    told: dict[str, Any] = {}
+    exec(script, told)
+    x, y = told["points"].real, told["points"].imag
+    sizes = abs(told["points"])
+    assert (sizes.max(), sizes.min()) == pytest.approx((113.0, 108.5), abs=0.005)
+    area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() / 2
+    assert math.pi * 108.5**2 < area < math.pi * 113.0**2
+    assert 0 < told["chords"].max_error <= 0.005
+    assert {type(curve).__name__ for curve in told["flanks"]} >= {"Involute", "TrochoidFillet"}
 
 
 def test_the_count_of_materials_is_that_of_the_table() -> None:
