@@ -298,7 +298,7 @@ def write_outlines(
     if export.format == "dxf":
         from exporters.formats.laser_dxf import write_laser_dxf
 
-        return write_laser_dxf(file, layers, made, version=export.dxf_version or "R2000", strokes=strokes)
+        return write_laser_dxf(file, layers, made, version=export.dxf_version, strokes=strokes)
     from exporters.formats.svg import write_laser_svg
 
     return write_laser_svg(file, layers, made, strokes, board)

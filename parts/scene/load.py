@@ -411,10 +411,10 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
 
 # keys of exports: what they are where nobody asks, and the only format that takes them, or why CAD does not
 _OF_ONE_FORMAT = (
-    ("dxf_version", None, "dxf"), ("author", "", "step"), ("organisation", "", "step"), ("shared", True, "step"),
+    ("dxf_version", "R2000", "dxf"), ("author", "", "step"), ("organisation", "", "step"), ("shared", True, "step"),
 )  # fmt: skip
 _NOT_OF_CAD = (
-    ("kerf", 0.0, "shows_the_part"), ("curves", "arcs", "has_true_splines"), ("dxf_version", None, "drawn_in_r2010"),
+    ("kerf", 0.0, "shows_the_part"), ("curves", "arcs", "has_true_splines"), ("dxf_version", "R2000", "drawn_in_r2010"),
 )  # fmt: skip
 
 

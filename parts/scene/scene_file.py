@@ -60,7 +60,7 @@ _PITCH_CURVE = Meta(
     description='dxf with purpose = "drawing": the path of the follower\'s centre too, on the layer PITCH_CURVE'
 )
 _OFFSET = mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
-_DXF_VERSION = Meta(description="dxf for a laser, default R2000; drawings are R2010", examples=["R2000"])
+_DXF_VERSION = Meta(description="dxf for a laser; drawings are always R2010")
 _CURVES = Meta(description='dxf, svg: arcs, or straight lines only; purpose = "drawing" has true splines')
 
 
@@ -73,7 +73,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     kerf: Kerf = 0.0
     offset: Annotated[float, _OFFSET] = 0.0
     curves: Annotated[Literal["arcs", "lines"], _CURVES] = "arcs"
-    dxf_version: Annotated[Literal["R2000", "R12"], _DXF_VERSION] | None = None
+    dxf_version: Annotated[Literal["R2000", "R12"], _DXF_VERSION] = "R2000"
     name: Annotated[Identifier, Meta(examples=["laser"])] | None = None
     parts: Annotated[list[str], _PARTS] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False

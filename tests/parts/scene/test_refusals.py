@@ -117,11 +117,8 @@ WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "negative tolerance": ({}, {"tolerance": "-0.1"}, "exports[1].tolerance", "-0.1", "at least"),
     "plate of an stl": ({}, {"format": '"stl"', "purpose": '"plate"'}, "exports[1].purpose", "plate", 'format = "3mf"'),
     "R12 of an stl": ({}, {"format": '"stl"', "dxf_version": '"R12"'}, "exports[1].dxf_version", "R12", "remove"),
-    # before: a drawing of R2010 was written
-    "R2000 of a drawing": (
-        {}, {"purpose": '"drawing"', "dxf_version": '"R2000"'}, "exports[1].dxf_version", "R2000", "R2010"),
-    "R2000 of a part's drawing": (
-        {}, {"purpose": '"part"', "dxf_version": '"R2000"'}, "exports[1].dxf_version", "R2000", "R2010"),
+    "R12 of a drawing": (
+        {}, {"purpose": '"drawing"', "dxf_version": '"R12"'}, "exports[1].dxf_version", "R12", "R2010"),
     "printing on a laser": ({}, {"purpose": '"print"'}, "exports[1].purpose", "print", "laser"),
     "a purpose of other formats, like none of its own": (
         {}, {"format": '"pdf"', "purpose": '"animation"'}, "exports[1].purpose", "animation", "part, assembly"),
