@@ -362,20 +362,29 @@ class Canvas(Draft):
         self.box("FRAME", frame)
         self.write(title, complex(frame.left + margin, frame.high - 9.0), TITLE_TEXT, frame.wide - 2 * margin)
 
-    def squares(self, area: Box) -> None:
-        """Squared paper, from the lower left corner."""
+    def squares(self, area: Box, free: Box | None = None) -> None:
+        """Squared paper, from the lower left corner; ``free``: squares that are left out, at its right side."""
+        free = free or Box(area.right, area.low, area.right, area.low)
         for k in range(int(area.wide / SQUARE + 1e-9) + 1):
             x = area.left + k * SQUARE
-            self.line("ORDINATE", complex(x, area.low), complex(x, area.high))
+            parted = x > free.left + SQUARE / 2
+            for low, high in ((area.low, free.low), (free.high, area.high)) if parted else ((area.low, area.high),):
+                self.line("ORDINATE", complex(x, low), complex(x, high))
         for k in range(round(area.tall / SQUARE) + 1):
             y = area.low + k * SQUARE
-            self.line("ORDINATE", complex(area.left, y), complex(area.right, y))
+            parted = free.low + SQUARE / 2 < y < free.high - SQUARE / 2
+            self.line("ORDINATE", complex(area.left, y), complex(free.left if parted else area.right, y))
 
-    def squares_about(self, at: complex, room: Box, beside: float = 0.0) -> None:
-        """Squared paper within a room: a point lies on a corner of squares, or ``beside`` of a square away from it."""
+    def squares_about(self, at: complex, room: Box, beside: float = 0.0, free: complex = 0j) -> None:
+        """Squared paper within a room: a point lies on a corner of squares, or ``beside`` of a square away from it.
+
+        ``free``: width and height of what stays without squares at the right side, below the point's line.
+        """
         sides = at.real - room.left, at.imag - room.low, room.right - at.real, room.high - at.imag
         left, below, right, above = ((side // SQUARE - beside) * SQUARE for side in sides)
-        self.squares(Box(at.real - left, at.imag - below, at.real + right, at.imag + above))
+        box = Box(at.real - left, at.imag - below, at.real + right, at.imag + above)
+        wide, tall = (math.ceil(size / SQUARE) * SQUARE for size in (free.real, free.imag))
+        self.squares(box, Box(box.right - wide, at.imag - tall, box.right, at.imag))
 
     def write(
         self, text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None, *,

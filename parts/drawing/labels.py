@@ -30,12 +30,17 @@ class Labeller:
         self._room = room
         self._points = canvas.obstacles()
 
+    @property
+    def letters(self) -> float:
+        """Height of words that none is told of, mm."""
+        return self._canvas.letters
+
     def name(
         self, text: str, point: complex, height: float | None = None, prefer: complex = 0j, *,
         answer: bool | None = None,
     ) -> None:  # fmt: skip
         """A word beside a point, in the direction ``prefer`` where that costs nothing; ``answer`` as of a text."""
-        height = height or self._canvas.letters
+        height = height or self.letters
         width = text_width(text, height)
         away = np.abs(self._points - point)
         texts = [(abs(nearest(t.box, point) - point), t.box) for t in self._canvas.texts]
@@ -100,7 +105,7 @@ class Labeller:
         if not names:
             return
         names = sorted(names, key=lambda pair: pair[1].imag)
-        size = self._canvas.letters
+        size = self.letters
         step = 1.7 * size
         heights = spread([p.imag for _, p in names], step, low, high)
         for (text, point), y in zip(names, heights, strict=True):

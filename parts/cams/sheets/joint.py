@@ -16,7 +16,7 @@ from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import numbered
-from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper
+from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, text_width
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 
@@ -63,7 +63,7 @@ class Joint(Record):
         drawn, to = Drawn(), paper.point
         if asked.by_hand:
             room = Box.of([to(corner) for corner in window.corners]).grown(-NAMES)
-            canvas.squares_about(paper.origin, room)
+            canvas.squares_about(paper.origin, room, free=self._named_by_hand(canvas.letters))
         canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
         canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
         for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
@@ -94,13 +94,20 @@ class Joint(Record):
         _angle(canvas, self, paper)
         return drawn
 
+    def _named_by_hand(self, letters: float) -> complex:
+        """Width and height of what stands below the right end of the axis: its name and the angles asked for, mm."""
+        names = [self.picture.axis_name(self.order), *asked_angles(self.picture)]
+        return complex(max(text_width(name, letters) for name in names), len(names) * (letters + 0.7 * NAMES))
+
     def name(self, labels: Labeller, paper: Paper, window: Box, *, by_hand: bool) -> None:
         """Names of axes, positions, centres and sizes; by hand of the axes alone."""
         to, say = paper.point, self.picture.say
         labels.name(self.picture.axis_name(0), to(1j * window.high), prefer=1 - 1j)
         labels.name(self.picture.axis_name(self.order), to(complex(window.right, 0)), prefer=-1 + 1j)
         if by_hand:
-            name_asked(labels, self.picture, to(complex(window.right, 0)))
+            free = self._named_by_hand(labels.letters)
+            middle = to(complex(window.right, 0)) - complex(NAMES + free.real / 2, free.imag / 2)
+            name_asked(labels, self.picture, middle)
             return
         labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
         if self.offset:
@@ -175,11 +182,20 @@ def _points(joint: Joint) -> list[complex]:
     return points
 
 
+def asked_angles(picture: CamPicture) -> list[str]:
+    """The transmission angles that the scene asks for, that of the return where it is one of its own."""
+    if not picture.asked or picture.gamma is None:
+        return []
+    told = [f"γ_{{min}} = {angle_text(picture, picture.gamma)}"]
+    if picture.gamma_back is not None and picture.gamma_back != picture.gamma:
+        told.append(f"γ'_{{min}} = {angle_text(picture, picture.gamma_back)}")
+    return told
+
+
 def name_asked(labels: Labeller, picture: CamPicture, point: complex) -> None:
-    """The transmission angle that the scene asks for, for students to draw its lines."""
-    if picture.asked and picture.gamma is not None:
-        labels.name(f"γ_{{min}} = {angle_text(picture, picture.gamma)}", point, prefer=-1j, answer=False)
-        name_return(labels, picture, point)
+    """Those angles, for students to draw their lines."""
+    for told in asked_angles(picture):
+        labels.name(told, point, prefer=-1j, answer=False)
 
 
 def name_return(labels: Labeller, picture: CamPicture, point: complex) -> None:

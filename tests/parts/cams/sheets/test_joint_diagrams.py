@@ -55,16 +55,16 @@ def picture(follower: str, gamma: float | None = 60.0) -> CamPicture:
 class Drawn:
     """A joint diagram on an empty sheet, read in mm of the model."""
 
-    def __init__(self, made: CamPicture, *, by_hand: bool = False) -> None:
+    def __init__(self, made: CamPicture, *, by_hand: bool = False, area: Box = AREA) -> None:
         self.canvas: Canvas = blank("A2", upright=True)
         asked = Asked("en", 1e-4, by_hand=by_hand)
         diagram = joint_of(made) or swing_of(made)
         assert diagram is not None
         self.box = diagram.window()
-        self.paper, self.window = joint_paper(self.box, AREA)
+        self.paper, self.window = joint_paper(self.box, area)
         diagram.draw(self.canvas, self.paper, self.window, asked)
         self.strokes = list(self.canvas.strokes)
-        diagram.name(Labeller(self.canvas, AREA), self.paper, self.window, by_hand=by_hand)
+        diagram.name(Labeller(self.canvas, area), self.paper, self.window, by_hand=by_hand)
 
     def lines(self, layer: str) -> list[tuple[complex, complex]]:
         found = [s.curve for s in self.strokes if s.layer == layer and isinstance(s.curve, Line)]
@@ -415,9 +415,10 @@ def test_by_hand_squared_paper_lies_about_the_axes(follower: str) -> None:
     drawn = Drawn(picture(follower), by_hand=True)
     scale, lines = drawn.paper.scale, drawn.lines("ORDINATE")
     for upright in (False, True):
-        across = [a.real if upright else a.imag for a, b in lines if (a.real == b.real) is upright]
+        # those that what is named parts are two in a line
+        across = np.unique([round(a.real if upright else a.imag, 9) for a, b in lines if (a.real == b.real) is upright])
         assert len(across) > 15
-        assert np.diff(sorted(across)) * scale == pytest.approx(2.5)
+        assert np.diff(across) * scale == pytest.approx(2.5)
         # one line in the axis, from which students measure
         assert min(np.abs(across)) * scale < 1e-9
     # all that the diagram reaches lies on squares
@@ -429,6 +430,22 @@ def test_by_hand_squared_paper_lies_about_the_axes(follower: str) -> None:
     assert most >= np.abs(reach.real).max()
     assert tall >= reach.imag.max()
     assert all(drawn.window.holds(p) for line in lines for p in line)
+
+
+@pytest.mark.parametrize("follower", [ROLLER.format(offset=6.0), FLAT])
+def test_by_hand_names_stand_at_the_axis_where_the_paper_ends(follower: str) -> None:
+    """Before: over all squares, on a line to the end of the axis, in lesson 4 as it is handed out."""
+    made = picture(follower)
+    diagram = joint_of(made)
+    assert diagram is not None
+    window = diagram.window()
+    drawn = Drawn(made, by_hand=True, area=Box(40.0, 60.0, 41.0 + 2 * window.wide, 61.0 + 2 * window.tall))
+    assert drawn.paper.scale == 2.0
+    leads = [s.curve.end for s in drawn.canvas.strokes[len(drawn.strokes) :]]
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 400)) for s in drawn.strokes])
+    for text in drawn.canvas.texts:
+        assert not text.box.holds(points)
+        assert text.text == "S, mm" or all(abs(nearest(text.box, end) - end) > 1e-6 for end in leads)
 
 
 def test_by_hand_the_axes_stand_alone_with_what_is_given() -> None:
