@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 
-from geometry.base.angles import involute_function
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.involute import off_root
@@ -87,11 +86,15 @@ class RimMesh(Record, dict=True):
 
     def shift_total(self, distance: float) -> float | None:
         """x_central + x_rim of an external mesh, x_central - x_rim of an internal one; None: below the base circles."""
-        alpha = self.rack.pressure_angle
-        cosine = self.module * self.span * math.cos(alpha) / (2 * distance * self._share)
+        alpha, reference = self.rack.pressure_angle, self.module * self.span / (2 * self._share)
+        cosine = reference / distance * math.cos(alpha)
         if cosine > 1:
             return None
-        turned = involute_function(math.acos(cosine)) - involute_function(alpha)
+        working = math.acos(cosine)
+        # their cosines' difference is that of the distances: none at the reference distance, not even of rounding
+        sine = (distance - reference) / distance * math.cos(alpha) / (2 * math.sin((working + alpha) / 2))
+        apart = 2 * math.asin(sine)
+        turned = math.sin(apart) / (cosine * math.cos(alpha)) - apart
         return turned * self.span / (2 * math.tan(alpha) * self._share)
 
     def central_shift(self, distance: float, rim_shift: float) -> float | None:
