@@ -45,13 +45,15 @@ _ROUNDING = 1e-9
 class RimMesh(Record, dict=True):
     """One mesh of a set: a rim of the satellite with its central wheel, a ring where it is internal.
 
-    ``module`` in mm, of helical teeth the normal one; ``rack`` is that of their transverse section, the angle in rad.
+    ``module`` and ``reference``, the reference distance, in mm, of helical teeth the normal module; ``rack`` is that of
+    their transverse section, the angle in rad.
     """
 
     central: int
     rim: int
     internal: bool
     module: float
+    reference: float
     rack: BasicRack
     helix_angle: float = 0.0
 
@@ -86,13 +88,13 @@ class RimMesh(Record, dict=True):
 
     def shift_total(self, distance: float) -> float | None:
         """x_central + x_rim of an external mesh, x_central - x_rim of an internal one; None: below the base circles."""
-        alpha, reference = self.rack.pressure_angle, self.module * self.span / (2 * self._share)
-        cosine = reference / distance * math.cos(alpha)
+        alpha = self.rack.pressure_angle
+        cosine = self.reference / distance * math.cos(alpha)
         if cosine > 1:
             return None
         working = math.acos(cosine)
         # their cosines' difference is that of the distances: none at the reference distance, not even of rounding
-        sine = (distance - reference) / distance * math.cos(alpha) / (2 * math.sin((working + alpha) / 2))
+        sine = (distance - self.reference) / distance * math.cos(alpha) / (2 * math.sin((working + alpha) / 2))
         apart = 2 * math.asin(sine)
         turned = math.sin(apart) / (cosine * math.cos(alpha)) - apart
         return turned * self.span / (2 * math.tan(alpha) * self._share)
@@ -260,8 +262,8 @@ class Fitting(Record):
         z1, z2, z2p, z3 = teeth.teeth
         (one, two), beta = teeth.scheme.internal, self.helix_angle
         rack = transverse_rack(self.rack, beta)
-        m1, m2 = map(float, teeth.modules)
-        return RimMesh(z1, z2, one, m1, rack, beta), RimMesh(z3, z2p, two, m2, rack, beta)
+        (m1, m2), (a1, a2) = map(float, teeth.modules), map(float, teeth.distances)
+        return RimMesh(z1, z2, one, m1, a1, rack, beta), RimMesh(z3, z2p, two, m2, a2, rack, beta)
 
     def _distances(self, teeth: PlanetarySet) -> Iterator[float]:
         """From between both reference distances outwards, mm."""

@@ -10,17 +10,18 @@ from fractions import Fraction
 import mpmath
 import pytest
 
+from geometry.base.both import both
 from geometry.base.record import replace
 from geometry.gears.mesh.gears import GearMesh
 from geometry.gears.pairs.external import external_pair
 from geometry.gears.pairs.internal import internal_pair
-from geometry.gears.planetary.fitting import Fitting, RimMesh
+from geometry.gears.planetary.fitting import Fitting
 from geometry.gears.planetary.sets import SCHEMES, PlanetarySet, Search, found_sets
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.ring_limits import root_form_diameter
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
+from geometry.gears.teeth.transverse import transverse_gear
 from parts.gears.ring_gear.part import RingGearSpec, settled_section
 
 RACK = BasicRack(math.radians(20), 1.0, 0.25, 0.38)
@@ -100,16 +101,22 @@ def test_shifts_are_told_to_rounding_and_none_at_the_reference_distance() -> Non
     """By 50 digits; before: 2.7e-15 of wheels 18, 18, 54 at 25 degrees, which their names had in notes and pictures."""
     mp = mpmath.mp.clone()
     mp.dps = 50
-    for degrees, (z1, z2, z3), module in itertools.product((0, 11, 25, 33), ((18, 18, 54), (12, 24, 60)), (0.7, 1.5)):
+    for degrees, teeth, modules in itertools.product(
+        (0, 11, 25, 33), ((18, 18, 18, 54), (20, 22, 28, 76)), (("0.7", "0.7"), ("0.8", "0.7"), ("1.5", "1.5"))
+    ):
         beta = math.radians(degrees)
-        rack = transverse_rack(iso_53("A"), beta)
-        for mesh in (RimMesh(z1, z2, False, module, rack, beta), RimMesh(z3, z2, True, module, rack, beta)):
-            reference = module * mesh.span / (2 * math.cos(beta))
-            assert mesh.shift_total(reference) == 0.0
-            for share in (-1e-3, -1e-9, 1e-12, 1e-4, 0.03):
-                distance = reference * (1 + share)
-                alpha = mp.mpf(rack.pressure_angle)
-                working = mp.acos(mp.mpf(reference) / distance * mp.cos(alpha))
+        one = PlanetarySet(
+            SCHEMES["one_external_one_internal"], teeth, both(map(Fraction, modules)), Fraction(math.cos(beta))
+        )
+        fitting = Fitting(iso_53("A"), Requirements(0.25, 1.1), Fraction(1, 3), helix_angle=beta)
+        plain = fitting.plain(one)
+        coaxial = one.distances[0] == one.distances[1]
+        assert coaxial is (plain.shifts == (0.0, 0.0, 0.0, 0.0))
+        for mesh in plain.meshes:
+            for share in (0.0, -1e-3, -1e-9, 1e-12, 1e-4, 0.03):
+                distance = mesh.reference * (1 + share)
+                alpha = mp.mpf(mesh.rack.pressure_angle)
+                working = mp.acos(mp.mpf(mesh.reference) / distance * mp.cos(alpha))
                 turned = mp.tan(working) - working - mp.tan(alpha) + alpha
                 exact = turned * mesh.span / (2 * mp.tan(alpha) * math.cos(beta))
-                assert mesh.shift_total(distance) == pytest.approx(float(exact), rel=1e-12)
+                assert mesh.shift_total(distance) == pytest.approx(float(exact), rel=1e-12, abs=1e-40)
