@@ -20,8 +20,8 @@ from geometry.plane.profile import Label, Segment
 
 # pitch, pitch line over the outer circle a, depth h_g, width at the floor b_w (ISO 5294, AT) or between the corners on
 # the outer circle b_r (T, M), angle between the flanks 2 phi deg, root radius r_b (at most), tip radius r_t, mm;
-# teeth up to which the row holds (0: all), least number of teeth. Of T and AT pulleys a is what makers' outer diameters
-# have
+# teeth up to which the row holds (0: all), least number of teeth. Of T pulleys 2a is that of makers' tables of these
+# grooves, of AT ones what makers' outer diameters have
 _STRAIGHT = """
 MXL 2.032 0.254 0.69 floor 0.84 40 0.25 0.13 0 10
 XL 5.08 0.254 1.65 floor 1.32 50 0.41 0.64 0 10
@@ -29,14 +29,14 @@ L 9.525 0.381 2.67 floor 3.05 40 1.19 1.17 0 10
 H 12.7 0.686 3.05 floor 4.19 40 1.60 1.60 0 14
 XH 22.225 1.397 7.14 floor 7.90 40 1.98 2.39 0 18
 XXH 31.75 1.524 10.31 floor 12.17 40 3.96 3.18 0 18
-T2.5 2.5 0.26 0.75 corners 1.75 50 0.2 0.3 20 10
-T2.5 2.5 0.26 1.00 corners 1.83 50 0.2 0.3 0 10
-T5 5 0.415 1.25 corners 2.96 50 0.4 0.6 20 10
-T5 5 0.415 1.95 corners 3.32 50 0.4 0.6 0 10
+T2.5 2.5 0.265 0.75 corners 1.75 50 0.2 0.3 20 10
+T2.5 2.5 0.265 1.00 corners 1.83 50 0.2 0.3 0 10
+T5 5 0.425 1.25 corners 2.96 50 0.4 0.6 20 10
+T5 5 0.425 1.95 corners 3.32 50 0.4 0.6 0 10
 T10 10 0.925 2.60 corners 6.02 50 0.6 0.8 20 12
 T10 10 0.925 3.40 corners 6.57 50 0.6 0.8 0 12
-T20 20 1.4 5.20 corners 11.65 50 0.8 1.2 20 15
-T20 20 1.4 6.00 corners 12.60 50 0.8 1.2 0 15
+T20 20 1.425 5.20 corners 11.65 50 0.8 1.2 20 15
+T20 20 1.425 6.00 corners 12.60 50 0.8 1.2 0 15
 AT5 5 0.615 1.10 floor 2.70 50 0.3 0.4 0 15
 AT10 10 0.925 2.35 floor 5.40 50 0.4 0.7 0 15
 3M 3 0.381 1.22 corners 1.90 14 0.91 0.30 0 10

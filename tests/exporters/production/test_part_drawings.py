@@ -208,8 +208,8 @@ SIZES: dict[str, list[float]] = {
         21.92 + 0.91 * 7.75,
         12.7 / math.tan(math.pi / 12) - 1.04 * 11.81 - 0.76,
     ],
-    # p z / pi less 0.83; teeth of 10 between flanges of 1.5, hub and bore
-    "pulley": [8, 20, 90 / math.pi - 0.83, 10, 13, 19, 34],
+    # p z / pi less 0.85; teeth of 10 between flanges of 1.5, hub and bore
+    "pulley": [8, 20, 90 / math.pi - 0.85, 10, 13, 19, 34],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
     "pin": [8, 60],
     "eccentric": [10, 10, 4, 32],

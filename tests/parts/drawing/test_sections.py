@@ -253,7 +253,7 @@ def test_the_section_of_a_pulley_with_one_flange_reaches_its_diameter_there_alon
     """As it was: a line ran up to it at the other face too. The sign of roughness stands on the teeth."""
     pulley = {"kind": "timing_pulley", "belt": "T5", "number_of_teeth": 18, "face_width": 10.0, "bore_diameter": 8.0,
               "flanges": {"diameter": 34.0, "thickness": 1.5, "below": below, "above": not below}}  # fmt: skip
-    view, outer = drawing_of(pulley).views[0], 5.0 * 18 / math.pi - 2 * 0.415
+    view, outer = drawing_of(pulley).views[0], 5.0 * 18 / math.pi - 0.85
     ends = np.concatenate([curve.point(np.array(curve.domain)) for _, curve in view.strokes])
     high = ends.real[np.abs(ends.imag) > outer / 2 + 1e-6]
     assert set(np.round(high, 9)) == ({0.0, 1.5} if below else {10.0, 11.5})

@@ -41,6 +41,8 @@ DIN = {
     "T10": ((6.02, 2.60), (6.57, 3.40)),
     "T20": ((11.65, 5.20), (12.60, 6.00)),
 }
+# by how much the pitch diameter is more than the outer one, 2a of a maker's table of the grooves of DIN 7721-2
+LESS = {"T2.5": 0.53, "T5": 0.85, "T10": 1.85, "T20": 2.85}
 # inches of makers' handbooks, pitch line over the outer circle
 LINES = {"3M": 0.015, "5M": 0.0225, "8M": 0.027, "14M": 0.055, "2GT": 0.010, "3GT": 0.015, "5GT": 0.0225}
 
@@ -96,6 +98,14 @@ def test_grooves_of_few_teeth_are_narrower_and_flatter(name: str) -> None:
         groove = belt.groove_of(teeth)
         assert isinstance(groove, StraightGroove)
         assert (groove.width, groove.depth) == wanted
+
+
+@pytest.mark.parametrize("name", LESS)
+def test_outer_diameters_of_t_pulleys_are_less_by_what_makers_have(name: str) -> None:
+    """Of few teeth and of many."""
+    for teeth in (16, 40):
+        pulley = Pulley(teeth, named(name))
+        assert 2 * pulley.outer_radius == pytest.approx(teeth * pulley.belt.pitch / math.pi - LESS[name], abs=1e-9)
 
 
 @pytest.mark.parametrize("name", LINES)
