@@ -91,7 +91,7 @@ def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float
 
 def halved(stays: Callable[[Real], NDArray[np.bool_]], low: Real, high: Real, steps: int) -> tuple[Real, Real]:
     """Brackets (n,) halved so often about where a vectorised condition turns: it ``stays`` true at ``low``."""
-    for _ in range(steps):
+    for _ in range(steps if low.size else 0):
         middle = (low + high) / 2
         same = stays(middle)
         low, high = np.where(same, middle, low), np.where(same, high, middle)
