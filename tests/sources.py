@@ -28,6 +28,9 @@ _MARKS = {
     ".note": "t",
     ".section": "t",
 }
+# what refuses, and which of its arguments is the code
+REFUSE = {"SceneError": 3, "ParameterError": 2, "UndercutError": 2, "PointedTipError": 2, "OffsetError": 1}
+_REFUSAL = re.compile(rf"\b({'|'.join(REFUSE)})(\.beyond)?\(")
 _MARK = re.compile("|".join(rf"{re.escape(name)}\s*\(" for name in _MARKS))
 
 
@@ -43,21 +46,23 @@ class Statement:
 @dataclass(frozen=True)
 class Told:
     """Import statements anywhere in a file; lines and names of what says nothing of itself, a module's line 0; texts
-    that are marked for translation: context, text, plural or ""."""
+    that are marked for translation: context, text, plural or ""; refusals, each with its code."""
 
     statements: tuple[Statement, ...]
     undocumented: tuple[tuple[int, str], ...]
     marked: tuple[tuple[str | None, str, str], ...]
+    refusals: tuple[tuple[ast.Call, ast.expr], ...]
 
 
 @cache
 def told(source: str) -> Told:
-    """All three of one file."""
+    """All four of one file."""
     tree = ast.parse(source)
     statements = tuple(_statements(tree, runs=True, at_top=True))
     # a file without the names of marks has none
     marked = tuple(_marked(tree)) if _MARK.search(source) else ()
-    return Told(statements, tuple(_undocumented(tree)), marked)
+    refusals = tuple(_refusals(tree)) if _REFUSAL.search(source) else ()
+    return Told(statements, tuple(_undocumented(tree)), marked, refusals)
 
 
 def _statements(node: ast.AST, *, runs: bool, at_top: bool) -> Iterator[Statement]:
@@ -99,6 +104,15 @@ def _marked(tree: ast.Module) -> Iterator[tuple[str | None, str, str]]:
             if isinstance(text := found.get("t"), str) and text:
                 context, many = found.get("c"), found.get("p")
                 yield context if isinstance(context, str) else None, text, many if isinstance(many, str) else ""
+
+
+def _refusals(tree: ast.Module) -> Iterator[tuple[ast.Call, ast.expr]]:
+    for call in calls(tree):
+        # a bare name, or its ``beyond``
+        func = call.func.value if isinstance(call.func, ast.Attribute) and call.func.attr == "beyond" else call.func
+        at = REFUSE.get(func.id) if isinstance(func, ast.Name) else None
+        if at is not None and len(call.args) > at:
+            yield call, call.args[at]
 
 
 def calls(tree: ast.AST) -> Iterator[ast.Call]:

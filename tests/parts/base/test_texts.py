@@ -179,16 +179,17 @@ import sys
 opened = []
 sys.addaudithook(lambda event, args: opened.append(str(args[0])) if event == "open" else None)
 from exporters.command.cli import main
-for asked in (["calc", "spur", "module=2", "number_of_teeth=23"], ["check", "practicum_pair"], ["check", "james"]):
-    main([*asked, *sys.argv[1:], {more}])
-print("MO", [name for name in opened if name.endswith((".mo", ".po"))])
+for more in ([], ["--language", "uk"]):
+    for asked in (["calc", "spur", "module=2", "number_of_teeth=23"], ["check", "practicum_pair"], ["check", "james"]):
+        main([*asked, *more])
+    print("MO", [name for name in opened if name.endswith((".mo", ".po"))])
 """
 
 
 def test_english_commands_open_no_catalogue_and_ukrainian_ones_open_one() -> None:
     """By what Python itself says it opens, in a process of its own; the parts of ``james`` are named by its recipe."""
-    assert run(OPENED.format(more="")).endswith("MO []\n")
-    told = run(OPENED.format(more='"--language", "uk"'))
+    english, told = run(OPENED).split("MO []\n")
+    assert english
     assert told.count("higherpair.mo") == 1
     assert "колесо" in told
     assert "Сателіт" in told
