@@ -162,6 +162,7 @@ def test_the_shaft_has_the_clearance_that_was_asked_for(built: Path) -> None:
         assert entry["measured"]["spline_gap"] == pytest.approx(wanted, abs=off)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", TABLES)
 def test_another_shaft_is_caught(built: Path, name: str) -> None:
     """One that stands a tenth of a degree aslant, one that is looser, and one that is thicker."""

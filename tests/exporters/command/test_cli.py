@@ -427,6 +427,7 @@ def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFi
     assert {"first", "second"} <= set(table)
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("kind", MATES)
 def test_a_mate_of_which_there_is_a_scene_names_the_command_that_prints_it(
     kind: str, capsys: pytest.CaptureFixture[str]
@@ -445,6 +446,7 @@ def test_a_mate_of_which_there_is_a_scene_names_the_command_that_prints_it(
         assert f'kind = "{kind}"' in capsys.readouterr().out
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     text = new_scene(capsys, kind)

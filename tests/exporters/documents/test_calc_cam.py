@@ -65,6 +65,7 @@ def test_the_base_circle_of_a_flat_follower_follows_from_its_least_radius_of_cur
     assert (told.value.key, told.value.code) == ("cam.base_circle_radius", "base_circle_missing_flat")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", [c for c in CASES if ".p5.r0." in c["id"]], ids=lambda c: c["id"])
 @pytest.mark.parametrize(("offset", "side"), [(3, "helps"), (-3, "hinders")])
 def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
@@ -77,6 +78,7 @@ def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
     assert values["transmission_angle_reached_deg"] == pytest.approx(60, abs=1e-9)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("offset", [0.0, 6.0, -6.0])
 @pytest.mark.parametrize("kind", ["pointed", "roller", "mushroom", "flat"])
 def test_the_greatest_radius_of_lesson_4(kind: str, offset: float) -> None:

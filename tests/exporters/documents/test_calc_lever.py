@@ -62,6 +62,7 @@ def _collinear(rod: float, rocker: float, frame: float, crank: float) -> float:
     return abs(one - two)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("keys", "between"),
     [
@@ -178,6 +179,7 @@ def _rows(data: dict[str, Any], name: str) -> list[list[Any]]:
     return [list(row.values()) for row in data[name]]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("code", ["1071", "5530", "2384"])
 def test_the_page_tells_the_rows_that_a_code_chooses(code: str) -> None:
     """Each group of columns is that of the assignment by the row told alone."""
@@ -315,7 +317,7 @@ def test_other_guides_of_the_example(height: float) -> None:
     assert value(data, "a_D") == pytest.approx(abs(right["a_D_m_s2"]), rel=1e-8)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("assignment", range(1, 11))
 def test_every_assignment_moves_all_round(assignment: int) -> None:
     """Every row of it; what the tables tell is what the steps tell, and the output comes back to where it began."""
@@ -346,6 +348,7 @@ AGAIN = [
 ]  # fmt: skip
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("keys", AGAIN, ids=str)
 def test_a_page_is_reckoned_again_from_what_it_gives(keys: tuple[str, ...]) -> None:
     """Both loops close in every position, with their first and second derivatives: by the section "Given" alone."""
@@ -391,7 +394,7 @@ def test_a_page_is_reckoned_again_from_what_it_gives(keys: tuple[str, ...]) -> N
             ).all()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("assignment", range(2, 11))
 def test_what_is_said_to_be_free_is_taken(assignment: int) -> None:
     """Keys by which the note says that the lost figure may be made up for; a machine of two cylinders is named."""

@@ -37,7 +37,7 @@ def rows(data: dict[str, Any], table: str) -> list[list[Any]]:
     return [list(row.values()) for row in data[table]]
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("assignment", range(1, 11))
 def test_every_assignment_holds_its_loads_all_round(assignment: int) -> None:
     """12 positions of a row of it: finite, in balance by powers, plans closed, both methods of one moment."""
@@ -72,6 +72,7 @@ def test_every_assignment_holds_its_loads_all_round(assignment: int) -> None:
         assert all(greatest[name] >= row[name] * (1 - 1e-12) for row in first for name in greatest)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("assignment", [1, 3, 4, 8, 10])
 def test_the_mean_balancing_moment_is_the_flywheels_driving_moment(assignment: int) -> None:
     """Over a turn weights and inertia do no work: what is left is the resistance, whose work Mertsalov adds up."""
@@ -154,6 +155,7 @@ def test_substitute_masses_of_a_rod_balance_as_the_rod_does() -> None:
     assert value(whole, "J_m") == pytest.approx(value(parts, "J_m"), rel=1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("assignment", [1, 6, 8, 10])
 def test_masses_at_points_move_as_the_points_do(assignment: int) -> None:
     """Their forces of inertia are mass by acceleration of the plan."""
@@ -295,6 +297,7 @@ def test_a_drive_that_turns_round_lifts_least_there() -> None:
     assert greatest["R_01"] == pytest.approx(3 * (9.81 + 0.07 * 400), rel=1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("factor", [1e-9, 1.0, 1e6])
 def test_masses_of_any_size(factor: float) -> None:
     data = calculated("assignment=6", "gravity=9.81", f"masses.2={3 * factor!r}", f"masses.5={factor!r}")
@@ -374,7 +377,7 @@ def test_every_printed_formula_gives_its_value(words: str) -> None:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.symbol, step.formula)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "keys", [("assignment=4", "velocity_scale=0.1"), ("assignment=8",), ("assignment=10",)], ids=str
 )

@@ -129,6 +129,7 @@ def test_shifts_bring_both_meshes_to_one_distance() -> None:
                 assert span / 2 * math.cos(alpha) / math.cos(angle) == pytest.approx(row["a_w"], abs=1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("teeth", "n", "allowed"),
     # allowed ring addendum without involute interference, by the research
@@ -326,6 +327,7 @@ def test_tips_of_small_modules_yield_as_far_as_those_of_large_ones(module: float
     assert tip(module) == pytest.approx(tip(100.0), abs=1e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("teeth", "satellites", "least", "most"),
     [((60, 13, 87), 3, 0.0, 14), ((31, 12, 53), 3, 0.0, 8), ((49, 22, 91), 2, 0.0, 8), ((24, 24, 72), 3, 0.0, 5),

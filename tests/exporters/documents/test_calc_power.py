@@ -271,6 +271,7 @@ def shown(page: str, name: str, which: str | int, put: dict[str, float]) -> floa
     return evaluated(replace(found, inputs=inputs))
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("case", sorted({row[0] for row in SHOWN}))
 def test_numbers_of_the_thesis_stand_on_a_page(case: str) -> None:
     for _, key, page, name, which, times, put in (row for row in SHOWN if row[0] == case):

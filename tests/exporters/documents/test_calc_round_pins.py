@@ -162,6 +162,7 @@ def result_of(page: str, *, of: str) -> str:
     return row.rpartition("= ")[2].split()[0]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("seed", range(5))
 def test_the_greatest_eccentricity_and_pin_build_as_they_are_told(seed: int) -> None:
     """Of 15 discs and 15 lanterns none was built: at the limit itself the lobes are sharp, the teeth gone."""

@@ -132,7 +132,7 @@ def test_the_torque_that_is_allowed_leaves_the_least_safety(method: str) -> None
     assert min(shares) == pytest.approx(1, rel=1e-12)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("key", "one", "two", "method"),
     [

@@ -293,6 +293,7 @@ def test_speeds_of_a_textbook(case: dict[str, Any]) -> None:
         assert found == pytest.approx(printed, abs=0.5001 * 10 ** -case["digits"])
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("teeth", [(20, 40, 100), (40, 13, 66), (17, 70, 157), (30, 30, 90)])
 @pytest.mark.parametrize("each", [0.99, 0.95])
 def test_efficiencies_of_a_planetary_set_by_kudryavtsev(teeth: tuple[int, int, int], each: float) -> None:

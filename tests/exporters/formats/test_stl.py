@@ -61,7 +61,7 @@ def test_both_faces_are_within_the_tolerance(tmp_path: Path, name: str, toleranc
     check_deviation(file, gear, entry, 3.3)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["m 2 z 23", "undercut, solid", "thin rim"])
 @pytest.mark.parametrize("offset", [-0.05, 0.08])
 def test_an_offset_moves_every_wall(tmp_path: Path, name: str, offset: float) -> None:

@@ -195,6 +195,7 @@ def test_what_cannot_be_drawn_is_told_by_key() -> None:
     assert small.key == "exports[1].paper"
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("at", [[50.0, 0.0, 0.0], [30.0, -40.0, 0.0]])
 def test_an_assembly_is_drawn_alike_wherever_it_stands(at: list[float]) -> None:
     def drawn(at: list[float]) -> tuple[Counter[str], list[str]]:

@@ -31,7 +31,7 @@ CASES: dict[str, tuple[dict[str, Any], list[float]]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CASES)
 def test_both_ends_of_a_long_rack_are_left_and_its_sizes_are_whole(tmp_path: Path, name: str) -> None:
     """It was a line 12 mm high across the sheet: 754 mm long, its teeth 4.5 mm."""

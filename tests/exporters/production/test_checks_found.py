@@ -179,6 +179,7 @@ def test_what_stands_by_hand_is_held_within_what_places_are_good_to() -> None:
             assert mate["tolerance"] == 1e-5
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("start", [0, 4])
 @pytest.mark.parametrize("turns", [0.04, 0.24, 0.26, -0.24, -0.26, -0.46])
 def test_a_rack_that_its_drive_takes_out_of_the_mesh_is_told(

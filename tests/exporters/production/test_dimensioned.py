@@ -120,7 +120,7 @@ def faults(document: Drawing, part: dict[str, Any]) -> list[str]:
     return Told(document, corners_of(part)).faults(circles, places)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", PARTS)
 def test_turned_parts_can_be_made_again_from_their_dimensions(tmp_path: Path, name: str) -> None:
     assert faults(drawn(tmp_path, PARTS[name]), PARTS[name]) == []
@@ -220,6 +220,7 @@ def test_spokes_tell_their_direction_from_a_turned_keyway(tmp_path: Path) -> Non
     assert "Spokes: the first at 20° from" in words
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "part",
     [
@@ -310,7 +311,7 @@ def test_a_thread_has_no_sign_of_the_seats(tmp_path: Path) -> None:
         assert sum(text.dxf.text == "Ra 0.4" for text in texts) == count
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("part", "count"),
     [

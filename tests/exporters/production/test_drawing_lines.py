@@ -115,7 +115,7 @@ def _cases() -> list[Any]:
     return [*LIGHT, *(pytest.param(name, marks=pytest.mark.heavy) for name in rest)]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("purpose", ["part", "assembly"])
 @pytest.mark.parametrize("name", _cases())

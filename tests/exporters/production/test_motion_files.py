@@ -222,6 +222,7 @@ def test_an_uneven_turn_is_as_near_as_is_declared(rocker: tuple[Path, Plan, floa
     assert declared / 20 < off <= declared <= 0.05
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("turns", [38.0, -38.0])
 def test_a_chain_runs_on_with_its_sprockets(tmp_path: Path, turns: float) -> None:
     """Pins one pitch apart throughout; those on the first sprocket lie on its pitch circle and turn as it does."""

@@ -715,7 +715,7 @@ def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() ->
     assert [job.path for job in jobs(PARTS["bearing"], name="sheet", formats=formats[:1])] == ["p.sheet.dxf"]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["gear", "ring", "rack", "wheel"])
 def test_the_sign_of_teeth_stands_on_the_extension_of_a_pitch_line(tmp_path: Path, name: str) -> None:
     """Of a worm wheel, where the size of its throat stands there, an arrow points to the line's end at the face."""
@@ -785,6 +785,7 @@ def test_scenes_without_drawings_import_nothing_of_them() -> None:
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("corner", [0.0, 8.0])
 def test_lines_of_sizes_of_a_flat_body_begin_at_its_outline(tmp_path: Path, corner: float) -> None:
     """GOST 2.307: they began at the corners of the rectangle about it, where a frame with stems has nothing."""

@@ -84,7 +84,7 @@ class Read:
         return far[0]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", CASES)
 def test_frames_point_at_what_runs_and_name_the_size_that_has_the_mark(

@@ -90,6 +90,7 @@ def test_a_sector_whose_runs_follow_each_other_in_mesh_never_leaves_it(
     assert "sector_leaves_mesh" not in codes(found_of(raw, tmp_path, capsys)[1])
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("kind", "second", "place"),
     [
@@ -126,6 +127,7 @@ def test_a_sector_that_stands_out_of_mesh_is_told(tmp_path: Path, capsys: pytest
     assert "sector_leaves_mesh" not in codes(found_of(right, tmp_path, capsys)[1])
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("way", ["counter_clockwise", "clockwise"])
 def test_an_intermittent_pair_turns_by_whole_teeth_and_is_clear(way: str) -> None:
     """Poses of the drives, as films show them: no outline is in the other through a turn."""

@@ -140,6 +140,7 @@ def test_what_is_offered_for_too_many_triangles_of_bent_faces_is_made(
         assert 0.4 * most < len(mesh.geometry) <= most
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("more", [{}, {"helix_angle_deg": 25.0}, {"helix_angle_deg": 25.0, "bore_diameter": 5.0}])
 def test_edges_are_counted_in_every_slice_of_a_twisted_wall(
     more: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -124,6 +124,7 @@ def test_a_line_that_is_off_is_seen(tmp_path: Path, layer: str, index: int) -> N
     assert any(layer in text for text in verify_sheets(file, [sheet], 1e-6).failures)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("driver", "distances", "ratios"),
     [

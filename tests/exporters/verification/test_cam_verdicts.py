@@ -142,6 +142,7 @@ def test_a_hole_that_no_double_holds_is_refused(
     assert "diameter = 1e-11" in capsys.readouterr().err
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("side", ["below", "above"])
 def test_the_follower_is_rolled_between_the_chamfers(side: str, tmp_path: Path) -> None:
     """Before: at half of the width, within a chamfer beyond it, where the file failed its check."""

@@ -61,7 +61,7 @@ def exact(curve: Any) -> Any:
     return point
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @EVERY
 def test_points_and_derivatives_against_fifty_digits(curve: Any) -> None:
     point = exact(curve)

@@ -134,7 +134,11 @@ def test_pictures_have_the_idlers_and_all_that_runs_about_them(tmp_path: Path, k
         parts = {"a": {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17}}
         parts["b"] = parts["a"] | {"number_of_teeth": 38}
         mate |= {"kind": "chain_drive", "centre_distance": 200.0, "idlers": two}
-    exports: list[Keys] = [{"format": "svg"}, {"format": "motion"}, {"format": "dxf", "purpose": "assembly"}]
+    exports: list[Keys] = [
+        {"format": "svg"},
+        {"format": "motion"},
+        {"format": "dxf", "purpose": "assembly", "paper": "A3"},
+    ]
     head = table("[[mates]]", mate) + table("[[drives]]", {"instance": "a", "turns": 2.0})
     assert run("build", write_scene(tmp_path / "s.toml", parts, exports, head), "--out", tmp_path) == 0
     preview, film = tmp_path / "s" / "s.preview.svg", tmp_path / "s" / "s.motion.svg"

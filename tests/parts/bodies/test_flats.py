@@ -37,6 +37,7 @@ def beyond(radius: float, floor: float) -> float:
     return radius * radius * math.acos(floor / radius) - floor * math.sqrt(radius**2 - floor**2)
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("end", ["lower", "upper"])
 @pytest.mark.parametrize(("flats", "count"), [(D, 1), (TWO, 2)])
 @pytest.mark.parametrize("chamfer", [0.0, 0.3, 0.5, 0.8])
@@ -57,6 +58,7 @@ def test_flats_take_away_what_lies_beyond_them(chamfer: float, flats: Keys, coun
     assert (where[2] < 8.0) if end == "lower" else (where[2] > 12.0)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("turn", "clearance"), [(0.0, 0.0), (0.0, 0.1), (3.9, 0.1), (8.0, 0.1)])
 def test_a_bore_goes_on_the_shaft_of_its_keys_as_its_clearance_says(turn: float, clearance: float) -> None:
     """A corner of the flat comes to its bore at acos(0.8) - acos(2.1 / 2.5) = 4.01 degrees; GEOS has what is beyond."""
@@ -109,6 +111,7 @@ def test_files_of_a_shaft_with_flats(tmp_path: Path) -> None:
     assert area["two"] == pytest.approx(math.pi * 2.5**2 - 2 * beyond(2.5, 2.0), rel=1e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("bore", [0.0, 6.0])
 @pytest.mark.parametrize("end", ["lower", "upper"])
 def test_flats_of_which_a_chamfer_takes_the_middle_are_cut_where_their_cylinder_is(

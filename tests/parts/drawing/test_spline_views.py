@@ -43,6 +43,7 @@ def hatched_at(view: View, z: float) -> list[tuple[float, float]]:
     return [(round(part.bounds[1], 4), round(part.bounds[3], 4)) for part in parts if part.length > 1e-6]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("part", "bore", "inner", "outer", "pitch"),
     [

@@ -85,6 +85,7 @@ def test_the_outer_diameter_of_a_flat_bevel_wheel_is_told_once(shift: float) -> 
     assert across == pytest.approx([60.0, tip], abs=NEAR)
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", PARTS)
 def test_a_bore_that_has_a_fit_has_its_roughness_too(name: str) -> None:
     """Cylindrical cams told H7 with the Ra 6.3 of all other surfaces; the slots of a Geneva ring run on pins."""

@@ -141,6 +141,7 @@ def test_a_drawing_asks_nothing_of_a_mate_that_stands_nowhere() -> None:
         assert [row.value for row in table.parts[0][:4]] == [2.0, 60, 4.0, 30.0]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("depth", [0.19, 0.02])
 def test_a_shallow_root_keeps_a_flank_beside_its_fillet(depth: float, tmp_path: Path) -> None:
     """A circle of half the depth, on the root circle and on a radius, touches this at sqrt((r_f + rho)^2 - rho^2)."""

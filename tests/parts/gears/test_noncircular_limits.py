@@ -126,6 +126,7 @@ def test_a_bore_leaves_a_rim_to_the_roots() -> None:
     assert refused(with_key(scene_of(ELLIPSE), "parts.p.bore_diameter", root * (1 - 1e-4))) is None
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("key", "given", "told", "works"),
     [

@@ -73,6 +73,7 @@ def test_a_bore_that_is_no_shape_is_refused_by_its_own_key(kind: str, wrong: str
     made(kind, "bore", bore | {key: refusal.nearest.value})
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", CAMS)
 def test_holes_of_a_cam_that_meet_are_told_a_size_that_keeps_them_apart(kind: str) -> None:
     holes = {"count": 200, "diameter": 5.0, "pitch_circle_diameter": 30.0}

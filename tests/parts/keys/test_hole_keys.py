@@ -302,6 +302,7 @@ def shaft(shape: str, grown: float) -> Any:
     return shapely.Polygon(np.column_stack([corners.real, corners.imag]))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("shape", "sizes"),
     [

@@ -75,7 +75,7 @@ def overlap(raw: dict[str, Any]) -> float:
     return worst
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("pair", PAIRS, ids=str)
 def test_default_tips_keep_off_fillets_and_given_ones_stay(pair: Pair) -> None:
     # chords of 1e-4 mm on two or three touching flanks
@@ -90,7 +90,7 @@ def test_default_tips_keep_off_fillets_and_given_ones_stay(pair: Pair) -> None:
     assert any(made[name] < alone[name] - 0.005 for name in made)
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("backlash", [None, 0.03])
 @pytest.mark.parametrize(
     ("pair", "part"),

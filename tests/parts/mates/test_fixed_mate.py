@@ -153,6 +153,7 @@ PLACES = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("kind", PLACES)
 @pytest.mark.parametrize("begun", [0.0, 100.0])
 def test_the_turn_that_is_told_fits_where_it_is_typed(

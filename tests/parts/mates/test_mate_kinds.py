@@ -304,6 +304,7 @@ def test_a_rack_may_stand_anywhere_in_its_play(pitches: int) -> None:
         assert found["rack_phase"].tolerance == pytest.approx(0.05, abs=2e-5)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("kind", "first", "second", "radius", "nearer"),
     [

@@ -242,6 +242,7 @@ def test_the_mate_is_listed() -> None:
     assert "wedge_follower" in MATES
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(("kind", "side"), [("roller", None), ("roller", "trailing"), ("pointed", "leading")])
 @pytest.mark.parametrize("slid", [-165.0, -125.0, -115.0, -20.0, 60.0, 75.0])
 def test_a_plate_that_its_drive_takes_from_under_its_follower_is_told(kind: str, side: str | None, slid: float) -> None:

@@ -35,6 +35,7 @@ def placed(wheel: Keys, driver: Keys, mates: list[Keys] | None = None, **more: A
     return placing, scene_checks(placing, parts, made.drives, "en", contact=True)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("wheel", "pins", "turns"), [(WHEEL, 1, -0.5), (WHEEL, 2, -1.0), (RING, 1, 0.5)], ids=["one", "two", "internal"]
 )

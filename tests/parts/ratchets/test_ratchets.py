@@ -35,13 +35,15 @@ PAWL: Keys = {"kind": "pawl", "of": "wheel"}
 MATE: Keys = {"kind": "ratchet_pair", "first": "wheel", "second": "pawl"}
 
 
-def placed(wheel: Keys, pawl: Keys, mates: list[Keys] | None = None, **more: Any) -> tuple[Placing, dict[str, Any]]:
+def placed(
+    wheel: Keys, pawl: Keys, mates: list[Keys] | None = None, *, contact: bool = True, **more: Any
+) -> tuple[Placing, dict[str, Any]]:
     """Where both stand, and what the checks say."""
     tables = {"parts": {"wheel": wheel, "pawl": pawl}, "mates": mates or [MATE], **more}
     made = scene_from_dict(tables, "t", "t")
     parts, matings = make_parts(made, "t")
     placing = place(made.instances, made.drives, parts, matings, "t")
-    return placing, scene_checks(placing, parts, made.drives, "en", contact=True)
+    return placing, scene_checks(placing, parts, made.drives, "en", contact=contact)
 
 
 def refusal(wheel: Keys, pawl: Keys | None) -> SceneError | None:
@@ -52,6 +54,7 @@ def refusal(wheel: Keys, pawl: Keys | None) -> SceneError | None:
     return None
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("turns", ["ccw", "cw"])
 @pytest.mark.parametrize("wheel", [WHEEL, RING], ids=["external", "internal"])
 def test_a_pawl_rides_freely_and_is_told_where_it_holds(wheel: Keys, turns: str) -> None:
@@ -79,11 +82,13 @@ def test_a_pawl_rides_freely_and_is_told_where_it_holds(wheel: Keys, turns: str)
             assert math.remainder(way - start, 2 * math.pi) == pytest.approx(-side * sense * swing)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("turns", ["ccw", "cw"])
 def test_whole_turns_of_a_wheel_are_counted_from_its_start(turns: str) -> None:
     """By polygons the pawl is lifted from the beginning on, and drops the first time an overrun after a pitch."""
     sense = 1 if turns == "ccw" else -1
-    placing, _ = placed(WHEEL | {"turns": turns}, PAWL, drives=[{"instance": "wheel", "turns": 3.0 * sense}])
+    drives = [{"instance": "wheel", "turns": 3.0 * sense}]
+    placing, _ = placed(WHEEL | {"turns": turns}, PAWL, contact=False, drives=drives)
     made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "pawl": PAWL}}, "t", "t"), "t")
     shape, train = made["pawl"].thing.shape, placing.train
     assert train is not None
@@ -96,7 +101,7 @@ def test_whole_turns_of_a_wheel_are_counted_from_its_start(turns: str) -> None:
             lift = -sense * math.remainder(now - start, 2 * math.pi)
             assert lift == pytest.approx(found, abs=1e-3)
     # a turn later all is as it was once it has dropped, wherever rounding leaves the angle
-    for turn in np.linspace(0.13, 0.99, 200).tolist():
+    for turn in np.linspace(0.13, 0.99, 60).tolist():
         first, later = (train.poses([sense * (turn + whole)])["pawl"][1] for whole in (0, 1))
         assert math.remainder(first - later, 2 * math.pi) == pytest.approx(0.0, abs=1e-6)
 
@@ -112,7 +117,7 @@ def test_pawls_stand_at_their_teeth_or_between_them() -> None:
     assert directions[1] - directions[0] == pytest.approx(8.5 * 22.5)
     # the same places by their directions
     by = [MATE | {"direction_deg": directions[0]}, MATE | {"second": "other", "direction_deg": directions[1]}]
-    again, _ = placed(WHEEL, PAWL, by, instances=instances)
+    again, _ = placed(WHEEL, PAWL, by, contact=False, instances=instances)
     for one, two in zip(placing.instances, again.instances, strict=True):
         assert (one.centre, one.rotation) == pytest.approx((two.centre, two.rotation))
 
@@ -120,14 +125,15 @@ def test_pawls_stand_at_their_teeth_or_between_them() -> None:
 def test_a_wheel_that_a_pawl_holds_does_not_turn_back() -> None:
     """At every tooth: what rounding leaves of its direction is no whole pitch to turn back by."""
     for tooth in range(1, 17):
-        _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": float(tooth)}])
+        _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": float(tooth)}], contact=False)
         assert checks["mates"][0]["turn_back_deg"] == pytest.approx(0.0, abs=1e-6)
 
 
 @pytest.mark.parametrize(("share", "told"), [(0.45, False), (0.51, True), (0.9, True)])
 def test_a_drive_may_turn_a_wheel_back_as_far_as_the_pawl_lets_it(share: float, told: bool) -> None:
     """Midway between two teeth it is free for half a pitch."""
-    _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": 9.5}], drives=[{"instance": "wheel", "turns": -share / 16}])
+    drives = [{"instance": "wheel", "turns": -share / 16}]
+    _, checks = placed(WHEEL, PAWL, [MATE | {"tooth": 9.5}], contact=False, drives=drives)
     found = [one for one in checks["mates"][0].get("conditions", []) if one["code"] == "turns_against_pawl"]
     assert [(one["value"], one["limit"]) for one in found] == (
         [(pytest.approx(share * 22.5), pytest.approx(11.25))] if told else []
@@ -199,13 +205,13 @@ def test_conditions_of_a_pair_are_told_with_their_numbers() -> None:
 
 def test_a_pawl_that_stands_elsewhere_is_told() -> None:
     """By hand it is turned off its place: nothing is contact then. By how much is told along the arc of its edge."""
-    placing, _ = placed(WHEEL, PAWL | {"length": 25.0})
+    placing, _ = placed(WHEEL, PAWL | {"length": 25.0}, contact=False)
     (own,) = (one for one in placing.instances if one.id == "pawl")
     at = [own.centre.real, own.centre.imag, 0.0]
     for off, met in ((0.0, True), (1.0, False)):
         rotation = math.degrees(own.rotation) + off
         instances: Keys = {"wheel": {}, "pawl": {"at": at, "rotation_deg": rotation}}
-        _, checks = placed(WHEEL, PAWL | {"length": 25.0}, instances=instances)
+        _, checks = placed(WHEEL, PAWL | {"length": 25.0}, contact=False, instances=instances)
         conditions = checks["mates"][0]["conditions"]
         assert all(one["met"] for one in conditions) == met
         (along,) = [one["value"] for one in conditions if one["code"] == "rack_phase"]
@@ -296,12 +302,12 @@ def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, pawl: Keys | None,
 
 
 def test_any_number_of_teeth_makes_a_ratchet_from_two_keys() -> None:
-    for teeth in some_of((3, 4, 6, 7, 12, 30, 100, 400), 4):
+    for teeth in some_of((3, 4, 6, 7, 12, 30, 100, 400), 2):
         for front in (0.0, 15.0):
             wheel = WHEEL | {"number_of_teeth": teeth, "front_angle_deg": front}
             _, checks = placed(wheel, PAWL)
             assert checks["mates"][0]["verdict"] == "contact"
-    for teeth in some_of((8, 16, 60), 2):
+    for teeth in some_of((8, 16, 60)):
         _, checks = placed(RING | {"number_of_teeth": teeth}, PAWL)
         assert checks["mates"][0]["verdict"] == "contact"
 
@@ -368,7 +374,7 @@ def random_ratchet(draw: random.Random) -> tuple[Keys, Keys]:
     return wheel, pawl
 
 
-@pytest.mark.parametrize("seed", some_of(range(60), 8))
+@pytest.mark.parametrize("seed", some_of(range(60), 5))
 def test_a_random_ratchet_rides_or_is_refused(seed: int) -> None:
     """What builds touches all the way and overlaps nowhere, where polygons say so; what is offered builds."""
     draw = random.Random(seed)
@@ -391,6 +397,7 @@ def test_a_random_ratchet_rides_or_is_refused(seed: int) -> None:
     assert shape.stands(turn) == pytest.approx(found, abs=1e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "own", [{"clearance_angle_deg": 1.0}, {"clearance": 2.5}, {"clearance_angle_deg": 25.0, "nose_height": 2.0}]
 )

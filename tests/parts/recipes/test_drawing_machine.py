@@ -125,6 +125,7 @@ def test_the_cams_of_the_files_draw_the_picture(keys: dict[str, Any], tmp_path: 
     assert max(told["picture_error"], told["corner_cut"]) == pytest.approx(apart(drawn, engraved[:-1]), abs=0.02)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("start", [1, 4])
 def test_backwards_the_pen_begins_at_the_same_corner(start: int) -> None:
     """And goes through the same places at the same distance from there, the other way round."""

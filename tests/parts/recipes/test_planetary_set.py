@@ -210,6 +210,7 @@ def test_wheels_of_a_helical_set_meet_at_one_distance_with_hands_that_mesh(
     assert made["carrier"]["pin_circle_diameter"] == pytest.approx(2 * found[0], abs=1e-9)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("keys", ["teeth = [12, 12, 36]", "teeth = [12, 24, 60]", "teeth = [12, 24, 60]\nmodule = 0.7"])
 def test_default_tips_of_satellites_yield_to_the_fillets_of_their_ring(keys: str, tmp_path: Path, capsys: Any) -> None:
     """Their cutter's fillets begin before theirs would end: by 0.00085 and 0.0005 mm they were in each other."""
@@ -254,6 +255,7 @@ def test_random_sets_turn_through_their_period(seed: int) -> None:
     assert abs(willis) <= 1e-12 * max(map(abs, turns.values())) * (1 + abs(float(basic)))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "turns"),
     [
@@ -341,6 +343,7 @@ def test_shifts_that_are_not_found_are_refused_with_the_conditions_that_are_not_
     assert broken in str(refusal(**keys))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("teeth", "satellites", "code"),
     [
@@ -580,7 +583,7 @@ def held(made: SceneFile) -> dict[str, Any]:
     return order_checks(made.steps, placing, parts, "en")
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("made", "steps"),
     [

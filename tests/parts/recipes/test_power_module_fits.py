@@ -107,6 +107,7 @@ RESTS: dict[str, Rests] = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("orientation", ORIENTATIONS)
 def test_everything_lies_on_what_it_is_held_by(orientation: str) -> None:
     own = contacts(orientation)

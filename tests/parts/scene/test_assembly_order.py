@@ -140,6 +140,7 @@ format = "stl"
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("axis", "at"), [([0.0, -1.0, 0.0], [0.0, -6.5, 24.5]), ([1.0, 0.0, 0.0], [6.5, 0.0, 24.5])])
 @pytest.mark.parametrize("name", ["post", "first_post"])
 @pytest.mark.parametrize(("bore", "passes"), [(None, False), (12.6, False), (18.6, True)])

@@ -59,6 +59,7 @@ BESIDE = {"number of teeth of the face gear", "teeth of the mate", "drawing of t
           "number of starts of the worm", "left end of the plate", "its lower edge"}  # fmt: skip
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("law", ["cosine", "constant_acceleration", "sine"])
 @pytest.mark.parametrize("kind", ["cam", "groove_cam", "barrel_cam"])
 def test_no_cam_angle_stands_twice_where_the_acceleration_leaps(kind: str, law: str) -> None:

@@ -99,7 +99,7 @@ def test_contact_over_a_turn_and_what_spoils_it(kind: str, sense: str | None) ->
     assert lifted.verdict is Verdict.CLEAR
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("kind", "sense"), CASES)
 @pytest.mark.parametrize("turned", [75.0, 250.0])
 def test_polygons_of_the_placed_parts_touch(kind: str, sense: str | None, turned: float) -> None:

@@ -241,6 +241,7 @@ def test_a_refusal_tells_what_rounding_left_out_as_it_was_written(capsys: pytest
     assert "spur.module = 1e-20: " in capsys.readouterr().err
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("keys", ["working_centre_distance=1.5", "pressure_angle_deg=5"])
 def test_sets_whose_shifts_leave_no_tooth_are_told_without_shifts(
     keys: str, capsys: pytest.CaptureFixture[str]

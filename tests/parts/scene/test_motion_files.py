@@ -114,6 +114,7 @@ def test_a_file_that_tells_no_motion_is_refused(
     assert {key: refusal.value.numbers[key] for key in numbers} == numbers
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ["cam", "linkage_cam", "groove_cam", "barrel_cam"])
 def test_editors_know_it(kind: str) -> None:
     import jsonschema

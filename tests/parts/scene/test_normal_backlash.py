@@ -88,6 +88,7 @@ LOW = {
 STEEP = {"helix_angle_deg": 35.0, "pressure_angle_deg": 17.5}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("kind", "backlash", "more"),
     [

@@ -156,7 +156,7 @@ def test_the_practicum_pair_has_the_dimensions_of_the_practicum() -> None:
         assert circles["root_diameter"] == pytest.approx(d - 2 * 10 * (1.25 - x))
 
 
-@pytest.mark.sampled(14)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", built_in_scenes())
 def test_what_a_report_keeps_makes_the_same_scene_again(name: str) -> None:
     scene = load_scene(name)

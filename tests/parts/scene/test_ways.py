@@ -326,6 +326,7 @@ def test_pairs_are_counted_once_each() -> None:
     assert np.isfinite(FAR)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("keys", "screwed", "how"),
     [

@@ -71,7 +71,7 @@ def integrals(mesh: Mesh) -> tuple[float, np.ndarray, np.ndarray, float]:
     return float(volumes.sum()), volumes @ total / 4, np.asarray(squares), area
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", [*MADE, *SCENES])
 def test_a_mesh_is_closed_and_holds_what_exact_integrals_say(name: str) -> None:
     for part in parts_of(name).values():

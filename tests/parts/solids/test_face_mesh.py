@@ -206,6 +206,7 @@ def test_fillets_beside_a_bowed_edge_are_not_folded() -> None:
     assert mesh_deviation(mesh, body)[0] <= made.max_error
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("scene", "part"), [("bevel_pair", "pinion"), ("worm_set_print", "wheel")])
 def test_no_triangle_is_chosen_by_last_bits(scene: str, part: str) -> None:
     """Another machine rounds coordinates otherwise: the triangles are the same, the volume too."""

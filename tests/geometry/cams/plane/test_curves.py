@@ -97,7 +97,7 @@ def test_one_evaluation_gives_the_point_and_its_derivatives(name: str) -> None:
     laws.check_derivatives_together(CURVES[name])
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @EVERY
 def test_points_and_derivatives_against_fifty_digits(name: str) -> None:
     curve = CURVES[name]
@@ -203,7 +203,7 @@ def whole_cams() -> dict[str, DiskCam]:
     }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("name", "arcs"), [
     *((name, True) for name in whole_cams()), ("concave roller", False), ("oscillating flat", False), ("flat", False),
 ])  # fmt: skip

@@ -228,7 +228,7 @@ def test_a_clearance_widens_a_groove_on_its_own_circle(name: str) -> None:
     assert groove.width_of(outer, clear) == pytest.approx(2 * found, rel=1e-12)
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", belts())
 @pytest.mark.parametrize("share", [-0.02, -0.1, 0.03])
 def test_offset_grooves_are_parallel(name: str, share: float) -> None:

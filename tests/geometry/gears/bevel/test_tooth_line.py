@@ -84,7 +84,7 @@ def test_a_line_is_told_as_steep_as_it_is_until_it_turns_back() -> None:
     assert float(line.spiral(turns + 1.0)) == math.pi / 2
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", LINES)
 def test_flanks_are_what_a_crown_gear_with_these_lines_touches(name: str) -> None:
     """Rolled step by step, its flank on the sphere of a point comes as near as the point and never beyond it."""
@@ -151,7 +151,7 @@ def test_a_fillet_goes_on_beyond_the_middle_of_its_space() -> None:
         assert wall_distance(gear, "fillet", 1, moved).max() < 2e-4 * np.abs(turned).max()
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", LINES)
 def test_mates_touch_wherever_they_stand_and_backlash_is_measured_along_the_normal(name: str) -> None:
     both = pair(name)
@@ -170,7 +170,7 @@ def test_mates_touch_wherever_they_stand_and_backlash_is_measured_along_the_norm
     assert np.array(thin.contact().side_gaps) == pytest.approx(thin.normal_backlash / 2 * least, rel=1e-9)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", LINES)
 def test_the_total_contact_ratio_is_counted_off_a_pitch_of_turning(name: str) -> None:
     """How many teeth touch anywhere along the face, mean over a pitch; less on one side's teeth."""

@@ -148,6 +148,7 @@ def test_sizes_of_a_sprocket_08b_by_hand() -> None:
     assert [form.seating_radius(8.51), IsoForm(1.0).seating_radius(8.51)] == pytest.approx([4.2976, 4.4384], abs=1e-4)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("form", FORMS)
 @pytest.mark.parametrize("teeth", [11, 12])
 def test_callipers_find_the_chord_between_roots(form: IsoForm | SeatedForm, teeth: int) -> None:
@@ -259,6 +260,7 @@ def test_outlines_are_smooth_but_for_their_tips_and_take_a_roller_in_every_gap(f
         assert np.abs(outline).min() == pytest.approx(sprocket.root_radius, abs=1e-9 * sprocket.tip_radius)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("form", FORMS, ids=repr)
 def test_a_roller_that_leaves_along_its_involute_cuts_no_tooth(form: IsoForm | SeatedForm) -> None:
     """A link that is straightened about its seated neighbour: the roller at its end runs on a circle about that."""

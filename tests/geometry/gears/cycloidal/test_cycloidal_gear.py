@@ -70,6 +70,7 @@ def polygon(gear: CycloidalGear, offset: float, samples: int = 60) -> shapely.Po
     return shapely.Polygon(np.column_stack([points.real, points.imag]))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("teeth", "mate"), [(60, 8), (8, 60), (25, 30)])
 def test_tips_are_what_the_mates_radii_leave(teeth: int, mate: int) -> None:
     """The mate's straight root flank, carried through all positions, touches every point of the tip and cuts none."""
@@ -108,7 +109,7 @@ def test_a_parallel_is_that_of_a_buffer(gear: CycloidalGear, offset: float) -> N
     assert exact.symmetric_difference(thick).area < 2e-5 * exact.length
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY_PAIR
 def test_mates_touch_all_round_and_pushed_ones_overlap(gears: tuple[CycloidalGear, CycloidalGear]) -> None:
     pair, push = CycloidalPair(*gears), 1e-4

@@ -63,6 +63,7 @@ NOMINAL = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", NOMINAL)
 def test_involutes_run_evenly(name: str) -> None:
     pair = NOMINAL[name]

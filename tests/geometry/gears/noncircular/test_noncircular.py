@@ -119,6 +119,7 @@ def test_perimeters_by_elliptic_integrals() -> None:
         assert np.abs(made.line.frame(oracle.arc(t))[0] - oracle.point(t)).max() < 1e-11 * axis
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("teeth", "x"), [(23, 0.0), (40, 0.4), (12, 0.0)])
 def test_a_circle_gives_the_spur_gear(teeth: int, x: float) -> None:
     """Whole and undercut (12 teeth), driver and mate."""

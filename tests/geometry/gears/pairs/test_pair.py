@@ -305,7 +305,7 @@ def beyond_the_band(pair: ExternalPair) -> bool:
     return False
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("index", range(12))
 def test_fillet_interference_is_overlap_beyond_a_band(index: int) -> None:
     found = GearMesh(interfering_pairs(5, 12)[index]).contact()

@@ -147,7 +147,7 @@ DISCS = {
 EVERY = pytest.mark.parametrize("disc", DISCS.values(), ids=DISCS.keys())
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY
 def test_nothing_of_the_driver_runs_into_the_wheel(disc: GenevaDisc) -> None:
     """By polygons; the least gap is the one that the exact search finds, and so is a relief that is too shallow."""

@@ -107,6 +107,7 @@ def test_an_interrupted_drive_is_told() -> None:
     assert [f.code for f in lantern_findings(replace(gear, root_clearance=1e-3))] == ["contact_ratio"]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("gear", "greatest"),
     [

@@ -113,7 +113,7 @@ def test_the_guidelines_cam() -> None:
     assert float(cam.motion.value(math.radians(90 * 3 / 8))) == pytest.approx(10.125, rel=1e-12)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", CAMS)
 def test_sections_move_outwards_by_the_offset(name: str) -> None:
     part = part_of(CAMS[name])

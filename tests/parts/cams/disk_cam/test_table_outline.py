@@ -192,6 +192,7 @@ def test_splines_run_over_the_rows_too(tmp_path: Path, follower: str, rows: int)
     assert farthest(points, exact(follower, lifts, 400_001)) <= declared + 1e-8
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("rows", [12, 90])
 def test_the_bound_of_a_spline_over_rows_holds(rows: int) -> None:
     """At a row the second derivative jumps: no Taylor series goes on there. One span over all rows is far off."""
@@ -325,6 +326,7 @@ WILD = [
 ]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("follower", "radius", "base", "rows"), WILD)
 def test_outlines_of_wild_tables_lie_on_themselves(
     follower: str, radius: float | None, base: float, rows: list[tuple[float, float]]

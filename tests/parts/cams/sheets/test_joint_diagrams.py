@@ -345,6 +345,7 @@ def test_a_swing_is_drawn_about_its_pivot(sense: str, way: int) -> None:
     assert {t.answer for t in drawn.canvas.texts if t.text == radius} == {None}
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("sense", "way"), [("against", 1), ("with", -1)])
 def test_a_swings_region_is_that_of_its_pressure_angles(sense: str, way: int) -> None:
     """tan nu = (L (1 + way psi') - d cos psi) / (d sin psi) about an axis anywhere, on rise and return."""

@@ -86,6 +86,7 @@ def test_the_keys_of_the_thesis_give_its_numbers() -> None:
     assert found["lead"] == pytest.approx(5 * math.pi)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("keys", [{}, {"number_of_starts": 3, "form": "ZN1", "hand": "left"}, {"form": "ZA"}])
 def test_balls_touch_both_flanks_of_their_space_and_the_chord_is_the_shortest(keys: dict[str, Any]) -> None:
     part = part_of(**keys)

@@ -485,6 +485,7 @@ def test_extremes_are_built_or_refused_with_what_works(seed: int) -> None:
     })  # fmt: skip
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("module", "teeth", "tolerance"), [(0.001, 30, 0.01), (0.01, 200, 0.03)])
 def test_meshes_much_coarser_than_a_module_have_triangles_of_every_face(
     module: float, teeth: int, tolerance: float
