@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.record import Record, field
@@ -90,9 +90,9 @@ class Kind(Generic[K, T]):
     # code of the refusal to move its faces, of a solid that is made as it is alone
     unmoved = ""
     # where it comes from outside: sentences of its own refusals and remarks by code, names of its quantities
-    reasons: Mapping[str, Text] = {}
-    findings: Mapping[str, Text] = {}
-    quantities: Mapping[str, str] = {}
+    reasons: ClassVar[Mapping[str, Text]] = {}
+    findings: ClassVar[Mapping[str, Text]] = {}
+    quantities: ClassVar[Mapping[str, str]] = {}
     # modules with its calculation page and its working drawing, loaded when one is asked for
     page: str | None = None
     drawing: str | None = None

@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Generic, TypeVar
 
 from msgspec import Meta, Struct
 
@@ -322,7 +322,7 @@ class MateKind(Generic[K, A, B]):
     # whether an instance takes one mate of this kind alone, as a row of teeth takes one chain
     alone = False
     # where it comes from outside: sentences of its own refusals by code, and how a mating of it is told
-    reasons: Mapping[str, Text] = {}
+    reasons: ClassVar[Mapping[str, Text]] = {}
     told: Text = ""
 
     def check(self, keys: K, first: Struct, second: Struct) -> None:

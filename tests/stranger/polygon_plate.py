@@ -1,7 +1,7 @@
 """A kind of part and a kind of mate from outside: a plate in the form of a regular polygon, and a stack of two of them.
 
-One file says all that there is to say of either; it is registered by a call (``register``, ``register_mate``), and its
-Ukrainian stands in a catalogue of its own beside it.
+One file says all that there is to say of either; they are registered by ``add_kind`` and ``add_mate`` of
+``parts.outside``, and their Ukrainian stands in a catalogue of their own beside it.
 """
 
 from __future__ import annotations
@@ -71,13 +71,11 @@ class PolygonPlate(Record):
         return PlateOutline(rounded(corners), (PlateHole(0j, self.pin_diameter),))
 
 
-class PinFits(Record):
+class PinFits(Probe):
     """The pin goes into the hole of every file, as far as the file may be off."""
 
     diameter: float
     height: float
-    name: str = "pin"
-    needs_whole = False
 
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """The least distance of the hole from the axis, against the pin's radius less the offset."""
@@ -126,7 +124,7 @@ class PolygonPlateKind(Kind[PolygonPlateKeys, PolygonPlate]):
 
     def probes(self, keys: PolygonPlateKeys, thing: PolygonPlate) -> tuple[Probe, ...]:
         """The pin."""
-        return (PinFits(thing.pin_diameter, keys.face_width / 2),)
+        return (PinFits(thing.pin_diameter, keys.face_width / 2, name="pin"),)
 
 
 POLYGON_PLATE = PolygonPlateKind()
