@@ -18,16 +18,16 @@ LEAST, MOST = 6, 21
 def front(ratio: Fraction, stages: int, share: Fraction, *, coaxial: bool) -> set[tuple[int, ...]]:
     """Of all numbers those that no set with fewer teeth, or as few, is nearer than."""
     judged = []
-    for teeth in itertools.product(range(LEAST, MOST + 1), repeat=2 * stages):
+    up = max(ratio, 1 / ratio)
+    for head in itertools.product(range(LEAST, MOST + 1), repeat=2 * stages - 1):
+        # the other wheels leave the last one of a coaxial set no choice, nor does the ratio that of another
+        asked = up * math.prod(head[::2]) / math.prod(head[1::2])
+        last = head[0] + head[1] - head[2] if coaxial else min(max(math.floor(asked + Fraction(1, 2)), LEAST), MOST)
+        teeth = (*head, last)
         parts = [Fraction(b, a) for a, b in zip(teeth[::2], teeth[1::2], strict=True)]
-        up = max(ratio, 1 / ratio)
         off = abs(math.prod(parts) / up - 1)
-        asked = up / math.prod(parts) * teeth[-1]
-        # a coaxial set leaves the last wheel no choice
-        if not coaxial and teeth[-1] != min(max(math.floor(asked + Fraction(1, 2)), LEAST), MOST):
-            continue
         ordered = sorted(parts) == parts and (stages == 1 or parts[0] >= 1)
-        if ordered and off <= share and (not coaxial or teeth[0] + teeth[1] == teeth[2] + teeth[3]):
+        if ordered and off <= share and LEAST <= last <= MOST:
             judged.append((sum(teeth), off, teeth))
     kept, nearest = set[tuple[int, ...]](), Fraction(10)
     for _, group in itertools.groupby(sorted(judged), key=lambda one: one[0]):

@@ -118,8 +118,8 @@ def test_any_call_may_fail(
         some = {kind: draw.sample(range(1, calls + 1), min(calls, 50)) for kind, calls in whole if kind != "mkdir"}
         faults += [(kind, n, ()) for kind, numbers in some.items() for n in numbers]
     else:
-        # the first call of each kind, some of the others, two of a build of all
-        faults = [fault for fault in faults if fault[1] == 1] + draw.sample(faults, 5)
+        # the first call of each kind, two of the others, two of a build of all
+        faults = [fault for fault in faults if fault[1] == 1] + draw.sample(faults, 2)
         faults += [(kind, draw.randint(1, counted[()][kind]), ()) for kind in ("open", "write")]
     scene_of(tmp_path, 13)
     for kind, number, asked in faults:

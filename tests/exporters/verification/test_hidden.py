@@ -275,7 +275,7 @@ SAID: dict[str, dict[str, str]] = {
 @pytest.mark.parametrize("name", SAID)
 def test_what_is_hidden_is_told(name: str, good: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     # a STEP is held against the kernel too, which takes a second
-    for spoil in some_of(SPOILT[name], 4 if name == "g.step" else 8):
+    for spoil in some_of(SPOILT[name], 2 if name == "g.step" else 4):
         said = next((words for end, words in SAID[name].items() if spoil.endswith(end)), "")
         assert re.search(f"FAILED.*{said}", found(name, spoil, good, tmp_path, capsys), re.DOTALL), spoil
 

@@ -172,7 +172,7 @@ phases = [
 """
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("model", MODELS)
 def test_a_model_goes_together_in_the_order_told(
     model: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
+import shapely
 from shapely.affinity import rotate, translate
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
@@ -189,7 +190,9 @@ def test_a_first_tooth_that_jams_meets_a_tip_from_outside(case: Case, jams: bool
     standing = put(two, pair.second_rotation(steps.stands - mesh.last, contact=1), pair.working_centre_distance)
     # the first place at which the sector, turned on, runs into the mate
     places = np.arange(-mesh.last - 1.0, 1.0, 2e-4)
-    touch = next(rho for rho in places if put(one, rho).intersection(standing).area > 1e-9)
+    shapely.prepare(standing)
+    meeting = (rho for rho in places if standing.intersects(put(one, rho)))
+    touch = next(rho for rho in meeting if put(one, rho).intersection(standing).area > 1e-9)
     common = put(one, touch + 2e-4).intersection(standing)
     assert isinstance(common, Polygon)
     corner = max(math.hypot(x, y) for x, y in common.exterior.coords)
