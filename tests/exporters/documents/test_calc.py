@@ -116,6 +116,7 @@ SHEETS = [
     ("gear-pair", *PAIR, "first.cutter.number_of_teeth=20", "first.profile_shift_coefficient=0.4"),
     ("gear-pair", "module=1", "first.number_of_teeth=30", "second.number_of_teeth=11", "helix_angle_deg=30"),
     ("gear-pair", "module=1", "first.number_of_teeth=16", "second.number_of_teeth=40"),
+    ("strength", "practicum_pair", "torque=100"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
      "working_centre_distance=51.5"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=31", "module=2", "helix_angle_deg=25",
@@ -384,6 +385,10 @@ def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...
 
 # points that name: equations, figures, tables and sections, threads; and those of keys as a scene has them
 NAMED = r"\b[a-z]+_[a-z_]+ = \d+\.\d+|\(\d\.\d+\)|(рис|табл|пп)\. \d\.\d+(–\d\.\d+)?|таблиця 1\.\d|M20×1\.5"
+
+
+def test_every_topic_has_a_sheet_here() -> None:
+    assert {words[0] for words in SHEETS} == set(TOPICS)
 
 
 @pytest.mark.sampled(5)
