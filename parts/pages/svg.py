@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 from collections.abc import Iterable
 
 INK = "#202830"
@@ -16,10 +17,19 @@ def document(width: float, height: float, lines: Iterable[str]) -> str:
 
 
 def written(x: float, y: float, text: str, colour: str = INK, size: int = 12, anchor: str = "") -> str:
-    """Words; ``anchor``: start, middle or end of them at the place."""
+    """Words, indices behind a low line lowered; ``anchor``: start, middle or end of them at the place."""
     place = f"text-anchor:{anchor};" if anchor else ""
     style = f"font-family:sans-serif;font-size:{size}px;{place}fill:{colour}"
-    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'
+    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{_lowered(html.escape(text), size / 4)}</text>'
+
+
+def _lowered(text: str, by: float) -> str:
+    """A text with its indices ``by`` px lower; spaces behind one stand before what goes back, where they are kept."""
+    first, *rest = re.split(r"_(\w+)(\s*)([^_]*)", text)
+    for index, room, after in zip(rest[::4], rest[1::4], rest[2::4], strict=True):
+        back = f'<tspan dy="{-by:g}">{after}</tspan>' if after else ""
+        first += f'<tspan dy="{by:g}" style="font-size:75%">{index}</tspan>{room}{back}'
+    return first
 
 
 def chain(points: Iterable[tuple[float, float]], style: str, *, closed: bool = False) -> str:

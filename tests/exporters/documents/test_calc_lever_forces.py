@@ -431,9 +431,15 @@ def test_the_picture_has_the_plans_of_forces(tmp_path: Path) -> None:
     # titles within titles too are in the language: no word of another one is left
     assert "План сил ведучої ланки, " in text
     assert not re.findall("[A-Za-z]{4,}", text)
-    words = [e.text for e in ET.parse(file).iter() if e.tag.endswith("}text")]
-    assert {"План сил ланок 4 і 5", "План сил ланок 2 і 3", "План сил ведучої ланки"} <= set(words)
-    assert {"R_05", "F_c", "R_43", "R_21"} <= set(words)
+    told = [e for e in ET.parse(file).iter() if e.tag.endswith("}text")]
+    words = {"".join(e.itertext()) for e in told}
+    assert {"План сил ланок 4 і 5", "План сил ланок 2 і 3", "План сил ведучої ланки"} <= words
+    assert {"R05", "Fc", "R43", "R21"} <= words
+    # before: R_05, as it is typed
+    for name in (e for e in told if "".join(e.itertext()) in ("R05", "Fc")):
+        (index,) = name
+        assert (name.text, index.text) in (("R", "05"), ("F", "c"))
+        assert float(index.get("dy", 0.0)) > 0
 
 
 @cache
