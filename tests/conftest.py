@@ -7,6 +7,8 @@ import os
 # before numpy is loaded, here and in every worker and command that a test starts: threads of BLAS wait for each other
 # spinning, and splines take twice as long
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+# a worker or a command that may keep no bytecode compiles every file anew: a third of what a small build takes
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 import gc
 import random
