@@ -20,6 +20,8 @@ ANGLES = (20.0, 14.5, 25.0, 22.5, 15.0, 17.5, 30.0)
 _ROWS = {"GOST 9563-60": [float(m) for m in MODULES], "ANSI B6.1": [INCH / float(p) for p in DIAMETRAL_PITCHES]}
 # share of the base pitch within which a calliper's reading fits
 FITS = 0.01
+# shifts beyond it are seldom cut; a wrong pressure angle gives such ones, as its involute does not suit the span
+_SELDOM = 1.0
 
 
 class Match(Record):
@@ -58,6 +60,14 @@ def shift_of_span(span: float, teeth_spanned: int, teeth: int, match: Match, hel
     alpha = match.pressure_angle
     arc = math.pi * (teeth_spanned - 0.5) + teeth * involute_function(transverse_angle(alpha, helix))
     return (span / (match.module * math.cos(alpha)) - arc) / (2 * math.tan(alpha))
+
+
+def by_span(
+    found: Sequence[Match], span: float, teeth_spanned: int, teeth: int, helix: float
+) -> list[tuple[Match, float]]:
+    """Each with the shift that it makes of the span; of those that fit, first those with a shift that gears have."""
+    told = [(match, shift_of_span(span, teeth_spanned, teeth, match, helix)) for match in found]
+    return sorted(told, key=lambda each: (abs(each[0].deviation) > FITS, abs(each[1]) > _SELDOM))
 
 
 def pin_centres(size: float, pin: float, teeth: int) -> float:

@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.gears.teeth.identified import ANGLES, FITS, Match, matches, pin_centres, shift_of_pins, shift_of_span
+from geometry.gears.teeth.identified import ANGLES, FITS, Match, by_span, matches, pin_centres, shift_of_pins
 from geometry.gears.teeth.module_rows import INCH
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.texts import N_, message
@@ -79,8 +79,9 @@ def _by_spans(page: Sheet, keys: IdentifyKeys) -> Sheet:
         raise ParameterError("teeth_spanned", spanned, "span_beyond_teeth", most, teeth=keys.number_of_teeth)
     check_not_in_vain(keys, ("pin_diameter",), "over_pins")
     angles = ANGLES if keys.pressure_angle_deg is None else (keys.pressure_angle_deg,)
-    found = matches(pitch, [math.radians(a) for a in angles], keys.module)
-    match = found[0]
+    told = matches(pitch, [math.radians(a) for a in angles], keys.module)
+    found = by_span(told, span, spanned, keys.number_of_teeth, helix)
+    match, shift = found[0]
     page.given(teeth_spanned=spanned, span=span, next_span=more)
     page.given(tip_diameter=keys.tip_diameter, root_diameter=keys.root_diameter)
     if helix:
@@ -92,10 +93,10 @@ def _by_spans(page: Sheet, keys: IdentifyKeys) -> Sheet:
     page.add("module", match.module, "", match.row, symbol="m_n" if helix else "")
     page.add("diametral_pitch", INCH / match.module, f"{INCH} / {{m}}")
     page.add("pitch_difference_percent", 100 * match.deviation, "100 * ({m_b} / {m} - 1)")
-    shift = _shift(page, keys, (spanned, span, more), match, helix)
+    _shift(page, keys, more, match, helix, shift)
     _heights(page, keys, match, helix, shift)
     page.tables.append(_table(found))
-    _remarks(page, keys, spanned, found, shift)
+    _remarks(page, keys, spanned, found)
     return page
 
 
@@ -151,11 +152,9 @@ def _reference(page: Sheet, keys: IdentifyKeys, match: Match, helix: float) -> f
     return transverse
 
 
-def _shift(page: Sheet, keys: IdentifyKeys, spans: tuple[int, float, float], match: Match, helix: float) -> float:
-    """The profile shift, and where the faces of the calliper touch; ``spans``: teeth, span, that over one more."""
-    spanned, span, more = spans
+def _shift(page: Sheet, keys: IdentifyKeys, more: float, match: Match, helix: float, shift: float) -> None:
+    """The profile ``shift``, and where the faces of the calliper touch; ``more``: the span over one tooth more."""
     transverse = _reference(page, keys, match, helix)
-    shift = shift_of_span(span, spanned, keys.number_of_teeth, match, helix)
     arc = "pi * ({k} - 0.5) + {z} * inv({alpha})"
     formula = f"({{W}} / ({{m}} * cos({{alpha_n}})) - ({arc})) / (2 * tan({{alpha_n}}))"
     page.add("profile_shift_coefficient", shift, formula, "ISO 21771", symbol="x_n" if helix else "")
@@ -165,7 +164,6 @@ def _shift(page: Sheet, keys: IdentifyKeys, spans: tuple[int, float, float], mat
     page.add("span_contact_diameter", touched, "" if helix else "sqrt({d_b}**2 + {W_1}**2)", "ISO 21771")
     if keys.tip_diameter is not None and touched > keys.tip_diameter:
         page.note("the span over k + 1 teeth does not touch the involutes: measure over fewer teeth")
-    return shift
 
 
 def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift: float, sign: int = 1) -> None:
@@ -184,18 +182,18 @@ def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift:
         page.add("dedendum_coefficient", value, formula)
 
 
-def _table(found: list[Match]) -> Table:
-    rows = [(math.degrees(m.pressure_angle), m.module, INCH / m.module, 100 * m.deviation) for m in found[:_ROWS]]
-    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("Δ", "%"))
+def _table(found: list[tuple[Match, float]]) -> Table:
+    rows = [(math.degrees(m.pressure_angle), m.module, INCH / m.module, 100 * m.deviation, x) for m, x in found[:_ROWS]]
+    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("Δ", "%"), ("x", ""))
     return table_of("modules", N_("Pressure angles and modules, what fits first"), heads, rows)
 
 
-def _remarks(page: Sheet, keys: IdentifyKeys, spanned: int, found: list[Match], shift: float) -> None:
+def _remarks(page: Sheet, keys: IdentifyKeys, spanned: int, found: list[tuple[Match, float]]) -> None:
     """What is not certain, and how a scene has the gear."""
-    match, *others = found
+    (match, shift), *others = found
     if abs(match.deviation) > FITS:
         page.note("no module of a row is within 1 % of what was measured: module tells one of your own")
-    elif any(abs(other.deviation) <= FITS for other in others):
+    elif any(abs(other.deviation) <= FITS for other, _ in others):
         page.note("more than one fits within 1 %: pressure_angle_deg or module tells which")
     # by so much less is the shift with a tooth more: a tooth or a space as wide as the pitch is none
     step = math.pi / (2 * math.tan(match.pressure_angle))

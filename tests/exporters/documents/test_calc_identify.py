@@ -117,6 +117,23 @@ def test_modules_and_diametral_pitches_are_found_off_readings_of_a_hundredth(
         assert found["profile_shift_coefficient"] == pytest.approx(0.25, abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("module", "angle", "teeth", "spanned", "shift"),
+    [(1.5, 25.0, 62, 9, -0.256), (5.0, 30.0, 49, 9, -0.261), (2.75, 14.5, 92, 8, -0.115)],
+)
+def test_of_angles_that_fit_both_spans_that_comes_first_whose_shift_gears_have(
+    capsys: pytest.CaptureFixture[str], module: float, angle: float, teeth: int, spanned: int, shift: float
+) -> None:
+    """1.5 mm at 25 degrees are 18 teeth an inch at 14.5 within 0.5 %, with a shift of 2.2."""
+    first, second = spans_of(module, angle, teeth, shift, spanned)
+    keys = {"number_of_teeth": teeth, "teeth_spanned": spanned, "span": first, "next_span": second}
+    page = identified(capsys, **keys)
+    found = page["values"]
+    assert (found["module"], found["pressure_angle_deg"]) == pytest.approx((module, angle), rel=1e-12)
+    assert found["profile_shift_coefficient"] == pytest.approx(shift, abs=1e-9)
+    assert page["modules"][0]["x"] == pytest.approx(shift, abs=1e-9)
+
+
 def test_what_is_known_decides_and_what_fits_nothing_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     first, second = spans_of(2.15, 20.0, 30, 0.0, 4)
     keys = {"number_of_teeth": 30, "teeth_spanned": 4, "span": first, "next_span": second}
