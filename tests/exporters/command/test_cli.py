@@ -315,7 +315,7 @@ def test_a_file_that_cannot_be_read_does_not_keep_others_from_being_verified(
     assert "g.svg" in out
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("spoil", [
     lambda r: [], lambda r: {}, lambda r: 3, lambda r: {"files": 3}, lambda r: {"files": [3]},
     lambda r: r | {"scene": None}, lambda r: r | {"scene": {}}, lambda r: r | {"scene": {"parts": []}},
@@ -345,7 +345,7 @@ def test_a_damaged_report_is_one_line_too(
     assert run("verify", folder / "g.svg") == 0
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe", b"[" * 100_000, b"NaN", b'"x"'], ids=lambda d: repr(d)[:12])
 def test_a_report_that_is_no_json_is_one_line_too(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], data: bytes
@@ -420,6 +420,7 @@ def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytes
     assert {e["format"] for e in report["files"]} >= wanted
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("kind", MATES)
 def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     table = tomllib.loads(new_scene(capsys, kind))["mates"][0]

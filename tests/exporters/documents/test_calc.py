@@ -1292,6 +1292,7 @@ def test_the_least_shift_as_it_is_told_is_not_undercut(words: str) -> None:
         assert ("the tooth is undercut: x < x_min" in notes) == told
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("module", "quotient", "teeth", "distance", "least"),
     # (8 + 0.06 z2) m of x = -0.5, (11 + 0.1 z2) m of x = 0.5 by GOST 19650
@@ -1339,6 +1340,7 @@ def test_text_of_digits_needs_no_quotes_which_no_shell_leaves(capsys: pytest.Cap
     assert "p = 12.7 mm" in pages[0]
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("seed", range(12))
 def test_the_diameter_at_which_a_tooth_is_pointed_is_typed_back_as_it_is_told(seed: int) -> None:
     """Rounded to the nearest digit, every other one was refused as pointed; one more digit is."""

@@ -40,6 +40,7 @@ def calculated(*words: str) -> dict[str, Any]:
     return json.loads(calculate("cam", words, "json", "en"))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", [c for c in CASES if ".p4.r0." in c["id"]], ids=lambda c: c["id"])
 def test_lesson_4(case: dict[str, Any]) -> None:
     law = LAWS[case["inputs"]["law"]]

@@ -295,6 +295,7 @@ def test_a_rocker_has_both_parts_of_its_acceleration(keys: tuple[str, ...], link
     assert (across / lever).imag == pytest.approx(math.copysign(abs(across), rate), rel=1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("variant", range(1, 11))
 def test_variants_of_the_first_assignment(variant: int) -> None:
     right, data = CASES[f"task1.variant{variant}"]["recomputed"], calculated("assignment=1", f"variant={variant}")

@@ -87,6 +87,7 @@ def test_the_path_of_a_crossed_pair_has_its_formula_where_whole_flanks_meet() ->
         assert bool(step["formula"]) == has
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ["external_gear_pair", "internal_gear_pair", "rack_pair"])
 def test_a_hand_that_is_turned_by_the_sign_of_the_angle_changes_no_number(kind: str) -> None:
     pair = (

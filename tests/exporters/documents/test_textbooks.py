@@ -68,6 +68,7 @@ def test_limits_of_a_straight_spline_are_those_of_a_worked_example() -> None:
     ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("cutter", [24, 25, 30, 38, 40, 60, 80, 100])
 def test_rings_of_eighteen_teeth_more_than_the_cutter_can_be_fed_into(cutter: int) -> None:
     """Elements of Metric Gear Technology, table 5-3 (1): without shifts no tip is trimmed from z0 + 18 teeth on."""

@@ -70,6 +70,7 @@ def test_curves_stand_in_a_drawing_as_they_are(tmp_path: Path) -> None:
     assert [(complex(*c.dxf.center.vec2), c.dxf.radius) for c in circles] == [(1j, 4.0)] * 2
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("curves", [
     [Line(1 + 2j, -5 + 8j)], [Arc(3 + 4j, 2.5, 0.3, 2.9)], [Arc(3 + 4j, 2.5, 0.3, -4.9)], [Arc(1 + 1j, 3.0, 2.0, 6.2)],
     [Arc(1 + 1j, 3.0, 2.0, 2 * math.pi)], [Line(-9 + 1j, -8 - 4j), Arc(3 - 4j, 2.0, -0.2, 0.4), Line(0j, 1 + 7j)],

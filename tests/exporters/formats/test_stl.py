@@ -69,7 +69,7 @@ def test_an_offset_moves_every_wall(tmp_path: Path, name: str, offset: float) ->
     check_deviation(file, GEARS[name], entry)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", GEARS)
 def test_a_slicer_finds_one_closed_solid_in_millimetres(tmp_path: Path, name: str) -> None:
     import trimesh

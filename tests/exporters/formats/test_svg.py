@@ -30,6 +30,7 @@ def built(folder: Path, gear: Gear, **export: Any) -> tuple[Path, dict[str, Any]
     return folder / "out" / "s" / "g.svg", report["files"][0]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", GEARS)
 def test_one_user_unit_is_one_millimetre(tmp_path: Path, name: str) -> None:
     gear = GEARS[name]

@@ -84,6 +84,7 @@ RACK = {"kind": "rack", "module": 2.0, "number_of_teeth": 10, "face_width": 5.0}
 PINION = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 5.0}
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("travel", [12.0, -12.0])
 def test_a_rack_that_runs_into_a_post_tells_how_far_it_has_travelled(
     travel: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]

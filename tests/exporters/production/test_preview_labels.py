@@ -283,6 +283,7 @@ def test_the_uppermost_part_is_known_all_over_a_picture() -> None:
     assert [tops.seen(k) for k in range(4)] == [True, True, True, False]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("label", "rank"), [
     # letters of 2: 6.2 wide, 2.6 high with their room; on the square alone, over its edge, beside it, too far
     (Label("seven", 20.0, 20.0, 2.0), 2), (Label("seven", 1.0, 20.0, 2.0), 0), (Label("seven", -4.0, 20.0, 2.0), 1),

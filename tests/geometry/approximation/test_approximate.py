@@ -135,7 +135,7 @@ def test_arcs_are_tangent_continuous(curve: Curve, tolerance: float) -> None:
     assert abs(np.angle(np.exp(1j * arriving[-1]) / last)) <= 1e-9
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @EVERY
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5])
 def test_arc_count_is_near_the_least(curve: Curve, tolerance: float) -> None:
@@ -270,7 +270,7 @@ def test_whole_outlines_of_any_gear(gear: SpurGear, exponent: float) -> None:
         assert made.geometry.count == gear.number_of_teeth
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("module", [0.3, 1.0, 2.0, 4.0])
 @pytest.mark.parametrize("profile_name", ["A", "D"])
 def test_merged_edges_stay_within_the_tolerance(module: float, profile_name: str) -> None:

@@ -90,7 +90,7 @@ def test_a_line_is_one_piece() -> None:
     assert np.max(np.abs(brute.distance_to_edge(fit.spline.point(np.linspace(0, 1, 50)), 1 + 2j, 4 - 3j, 0.0))) <= 1e-14
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @KINDS
 def test_the_mirrored_fit_is_a_fit_of_the_mirrored_curve(kind: tuple[int, int]) -> None:
     """Both sides of a tooth are one fit: its mirror image and its turned copies keep the error."""
@@ -105,7 +105,7 @@ def test_the_mirrored_fit_is_a_fit_of_the_mirrored_curve(kind: tuple[int, int]) 
         assert abs(fit.spline.mirrored().poles[0] - start_point(mirror)) <= rounding
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @EVERY
 @KINDS
 def test_the_spline_never_runs_backwards(name: str, kind: tuple[int, int]) -> None:

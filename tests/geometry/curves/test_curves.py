@@ -79,13 +79,13 @@ def test_every_class_is_among_the_examples() -> None:
     assert all(isinstance(c, Curve) for c in EXAMPLES.values())
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(3)
 @EVERY
 def test_derivatives_against_fifty_digits(curve: Curve) -> None:
     laws.check_derivatives(curve)
 
 
-@pytest.mark.sampled(30)
+@pytest.mark.sampled(8)
 @EVERY
 def test_tangent_and_curvature_against_fifty_digits(curve: Curve) -> None:
     laws.check_tangent_and_curvature(curve)

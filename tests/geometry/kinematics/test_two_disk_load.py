@@ -153,7 +153,7 @@ AMOUNTS: dict[str, Amount] = {
 }
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", AMOUNTS)
 @pytest.mark.parametrize("direction", [None, 0.7])
 def test_no_place_and_no_direction_pass_the_bound(name: str, direction: float | None) -> None:

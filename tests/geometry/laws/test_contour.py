@@ -55,7 +55,7 @@ def motion(law: Law, shape: Contour, theta: float, order: int = 0) -> float:
     return float(law.value(theta / shape.rise_angle, order)) * shape.lift / shape.rise_angle**order
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("curvature", "angle"), SHAPES)
 @pytest.mark.parametrize("radius", [12.0, 40.0])
 def test_a_roller_lies_on_the_outline(curvature: float, angle: float, radius: float) -> None:

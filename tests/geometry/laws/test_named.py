@@ -207,6 +207,7 @@ DEFINITIONS: dict[str, Callable[[Any], Any]] = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", DEFINITIONS)
 def test_values_and_derivatives_of_smooth_laws(name: str) -> None:
     law = NAMED_LAWS[name]()

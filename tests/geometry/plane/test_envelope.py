@@ -202,7 +202,7 @@ def follower_of(cam: DiskCam) -> GivenMotion:
     return GivenMotion(pose)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", cams())
 def test_closed_forms_of_cams_are_the_engines(name: str) -> None:
     """Profile, pressure angle and both curvatures of every kind of disk cam, in rise and return."""

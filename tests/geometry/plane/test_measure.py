@@ -126,7 +126,7 @@ def _probes(profile: Profile, rng: np.random.Generator) -> np.ndarray:
     return probes * np.exp(2j * math.pi / profile.count * rng.integers(0, profile.count, len(probes)))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @EVERY
 def test_distance_to_profile_against_brute_force(gear: SpurGear) -> None:
     profile = tooth_side(gear).profile()
@@ -148,7 +148,7 @@ def test_distance_to_any_outline(gear: SpurGear, seed: int) -> None:
     assert np.max(np.abs(distance_to_profile(probes, profile) - exact)) <= 1e-12 * profile.reach()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("arcs", [True, False])
 @pytest.mark.parametrize("place", ["start", "middle", "end"])
 @EVERY

@@ -49,6 +49,7 @@ def test_every_tooth_is_merged_alike(tmp_path: Path) -> None:
     assert max(far) <= error + 0.004
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("corner", "size"), [("tip_rounding", 0.004), ("tip_chamfer", 0.01)])
 def test_what_is_measured_goes_with_the_teeth(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, corner: str, size: float

@@ -154,7 +154,7 @@ def test_areas_of_windows_and_of_holes_far_from_the_axis() -> None:
     assert sum(profile_area(p) for p in spokes.profiles()) == pytest.approx(-ring, rel=1e-12)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("share", [0.0, 0.02, 0.3, 0.97, -0.02, -0.3, -0.97])
 @pytest.mark.parametrize("name", MAKERS)
 def test_parallel_curves(name: str, share: float) -> None:

@@ -167,7 +167,7 @@ def parallel(volume: float, at: Real) -> Real:
     return volume * (at @ at * np.eye(3) - np.outer(at, at))
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", SECTIONS)
 def test_area_and_moments_do_not_hang_on_where_a_solid_lies(name: str) -> None:
     own = moments_of(name)
@@ -182,7 +182,7 @@ def test_area_and_moments_do_not_hang_on_where_a_solid_lies(name: str) -> None:
         assert found.inertia == pytest.approx(wanted, abs=1e-10 * np.abs(wanted).max())
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", SECTIONS)
 def test_a_solid_reaches_as_far_as_its_circles(name: str) -> None:
     """A circle about an axis a reaches z (a d) + r |a x d| along d: the most of it over the section."""

@@ -118,7 +118,7 @@ def test_sides_of_iso_4156_reach_its_form_diameters(size: tuple[float, Root]) ->
         assert hub.crest_rounding == rho or (0.85 * rho < hub.crest_rounding < rho and teeth < 11)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("distance", [-0.25, -0.02, 0.02, 0.25])
 @pytest.mark.parametrize("name", ["ISO 4156, 6 teeth", "DIN 5480, 6 teeth"])
 def test_sides_below_the_base_circle_have_parallels(name: str, distance: float) -> None:
@@ -136,6 +136,7 @@ def test_sides_below_the_base_circle_have_parallels(name: str, distance: float) 
         assert abs((start * along.conjugate()).imag) == pytest.approx(abs(distance), rel=1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", JOINTS)
 def test_a_shaft_goes_into_its_hub_and_does_not_turn_there(name: str) -> None:
     joint = JOINTS[name]
@@ -174,6 +175,7 @@ def test_areas_by_quadrature(name: str) -> None:
     assert profile_area(form.outline()) == pytest.approx(math.pi * form.inner**2 + joint.teeth * slots, rel=1e-12)
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("play", [0.0, 0.03, -0.04])
 @pytest.mark.parametrize("name", [name for name, joint in JOINTS.items() if isinstance(joint, InvoluteJoint)])
 def test_pins_touch_the_sides_they_are_measured_on(name: str, play: float) -> None:

@@ -73,7 +73,7 @@ def judged(body, tolerance: float = 0.002):
     return solid
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("bore", BORES)
 @pytest.mark.parametrize("shape", SHAPES)
 def test_mass_and_mesh_agree(shape: str, bore: str) -> None:

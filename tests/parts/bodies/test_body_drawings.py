@@ -135,6 +135,7 @@ def outline(part: dict[str, Any]) -> shapely.Polygon:
     return shapely.Polygon(rows[0], rows[1:])
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("cam", [
     {"kind": "wedge_cam", "follower": "roller", "follower_radius": 8.0, "base_height": 15.0, "lift": 20.0,
      "phases": [{"move": "rise", "travel": 60.0, "law": "sine"}]},

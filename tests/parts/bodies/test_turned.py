@@ -248,6 +248,7 @@ def test_an_arc_and_its_neighbour_do_not_cross_in_their_corner() -> None:
 FLAT = (10.0, 0.0), (31.0, 0.0), {"r": 31.0, "z": 6.37, "fillet": 0.9}
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("rows", [
     # before: the read-back took a flat cone's area off its heights, whose digits hold little of it, and refused it
     (*FLAT, (10.0, 6.55)), (*FLAT, (10.0, 6.373)),

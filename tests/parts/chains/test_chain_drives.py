@@ -84,6 +84,7 @@ def test_seats_of_a_second_that_stands_already_must_take_the_rollers(turn: float
         assert all(condition["met"] for condition in mate["conditions"]) == met
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("less", "turn"), [(0.0, 0.0), (1.0, 0.0), (1.0, 0.7), (1.0, -0.7)])
 def test_rollers_of_pictures_sit_in_the_seats_of_both_as_they_stand(less: float, turn: float) -> None:
     """Of a second turned within its play (0.75 degrees) too, and while both turn by the mean ratio, as drives do."""

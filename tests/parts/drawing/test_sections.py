@@ -223,6 +223,7 @@ def test_a_bolt_in_an_assembly_is_not_cut_but_what_is_wider_than_long_is(length:
     assert bool(cut([seen([Shown("p", "p", sketch, Placement3())], SIDE)[0]]).hatched) == hatched
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("start", [0.0, 10.0, 36.0])
 def test_spokes_in_an_assembly_are_not_hatched_along_their_length_and_are_across_it(start: float) -> None:
     """A plane along a spoke, one through its side, one through a window: rim and hub ring alone are hatched."""

@@ -406,6 +406,7 @@ def test_the_wishes_of_an_export_stand_beside_the_sizes(keys: dict[str, Any]) ->
     assert rough == ["Ra 0.8"] + ["Ra 3.2"] * (kind in ("spur_gear", "worm"))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("teeth", [100, 4])
 def test_the_section_of_a_long_rack_is_large_enough_to_be_read(teeth: int) -> None:
     """At the 1:20 of its view one of 80 x 78 mm was 4 x 4 mm on paper."""

@@ -66,7 +66,7 @@ def refused(keys: dict[str, Any]) -> str:
     return text
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", GOOD)
 def test_every_shape_becomes_verified_files(name: str, tmp_path: Path) -> None:
     """Laser DXF of arcs and of lines, and SVG, with kerf and an inward offset; a reader's area is the exact one."""

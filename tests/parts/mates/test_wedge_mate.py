@@ -103,7 +103,7 @@ def samples(profile: Profile) -> Complex:
     return np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 1000)[:-1]) for s in profile.segments()])
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("kind", "side"), CASES)
 @pytest.mark.parametrize("travel", [0.0, 28.0, 110.0, 130.0])
 def test_polygons_of_the_placed_parts_touch(kind: str, side: str | None, travel: float) -> None:

@@ -311,6 +311,7 @@ THREAD = {"height to the thread's chord", "chord of the thread on the reference 
 SPAN = {"spaces in the span", "span over k spaces", "profile shift coefficient"}
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("kind", "key", "value", "cells", "columns"),
     [

@@ -27,6 +27,7 @@ def pair(kind: str, second: dict[str, Any], mate: dict[str, Any] | None = None, 
     return {"parts": {"p": gear, "w": {"module": 2.0, **second}}, "mates": [joined]}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("backlash", [0.0, 0.05])
 @pytest.mark.parametrize(
     ("kind", "second"),

@@ -229,7 +229,7 @@ L_SHAPE = shapely.Polygon([(0, 0), (6, 0), (6, 2), (2, 2), (2, 5), (0, 5)])
 HOLED = shapely.Polygon(shapely.box(0, 0, 8, 6).exterior.coords, [shapely.box(2, 2, 6, 4).exterior.coords])
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "shape", [L_SHAPE, HOLED, shapely.box(0, 0, 3, 2), shapely.union(L_SHAPE, shapely.box(9, 0, 10, 1))]
 )

@@ -379,6 +379,7 @@ def test_a_face_without_a_seam_round_its_axis_is_refused() -> None:
         face_mesh(made.solid(), 0.1)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("scale", [1e-2, 1e2])
 @pytest.mark.parametrize("name", ["zone", "flats", "lens", "tube"])
 def test_larger_and_smaller_solids_have_the_same_triangles(name: str, scale: float) -> None:

@@ -123,7 +123,7 @@ def check_caps(mesh: Mesh, outer: Contour, bore: Contour | None) -> None:
     assert np.all(centres[normal < -0.5, 2] == 0)
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("tolerance", [0.5, 0.05, 0.01, 0.001])
 @pytest.mark.parametrize("name", GEARS)
 def test_a_gear_becomes_one_sound_solid(name: str, tolerance: float) -> None:

@@ -248,7 +248,7 @@ def test_the_pressure_angle_is_greatest_at_the_floor() -> None:
     assert math.tan(value) == pytest.approx(slope / math.sqrt(square), rel=1e-7)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @CAMS
 def test_developed_edges_and_their_derivatives(cam: BarrelCam) -> None:
     for side in (UPPER, LOWER):

@@ -96,7 +96,7 @@ def test_a_cam_under_a_raised_guide_is_the_same_cam_higher(cam: BarrelCam) -> No
         assert up == pytest.approx(np.tile([0.0, 0.0, 7.5], (len(ANGLES), 1)), abs=1e-12)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(2)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int) -> None:
@@ -118,7 +118,7 @@ def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int)
     assert np.sign(cam.nearest(points)[1]) == pytest.approx(np.full(30, float(side)))
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(2)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_a_wall_ends_at_its_cylinders(cam: BarrelCam, side: int) -> None:

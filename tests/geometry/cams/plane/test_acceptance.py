@@ -49,7 +49,7 @@ ECCENTRIC_CASES: dict[str, tuple[FollowerKind, Mount, float]] = {
 NODES = np.linspace(0, 2 * math.pi, 25)[:-1]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", ECCENTRIC_CASES)
 def test_an_eccentric_disk_comes_back_as_its_circle(case: str) -> None:
     """Acceptance A8: within 1e-12 of the radius, curvature too, whatever the follower."""

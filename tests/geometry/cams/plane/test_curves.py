@@ -120,7 +120,7 @@ def test_tangent_and_curvature_follow_from_the_derivatives(name: str) -> None:
     assert np.allclose(curve.curvature(t), (np.conj(first) * second).imag / np.abs(first) ** 3, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @EVERY
 def test_bounds_hold_and_are_sharp_on_short_intervals(name: str) -> None:
     curve = CURVES[name]
@@ -137,7 +137,7 @@ def test_bounds_hold_and_are_sharp_on_short_intervals(name: str) -> None:
                 assert bound <= 2 * largest
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @EVERY
 def test_laws_of_any_curve(name: str) -> None:
     curve = CURVES[name]

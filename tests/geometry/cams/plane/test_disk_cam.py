@@ -373,7 +373,7 @@ def test_a_joined_phase_goes_on_with_the_motion_beside_it(closed: bool) -> None:
 # --- contact
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["roller", "flat", "swinging flat above", "swinging roller above"])
 def test_gaps_are_none_on_the_cam_and_what_it_is_lifted_by(name: str) -> None:
     cam = CAMS[name]

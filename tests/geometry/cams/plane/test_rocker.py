@@ -34,7 +34,7 @@ def least_radius(given: FollowerMotion, base: float, distance: float, sense: int
 CASES = [(10.0, 80.0, 1, 5.0, 3.0), (10.0, 80.0, -1, 5.0, 3.0), (14.0, 100.0, 1, 0.0, 0.0), (8.0, 60.0, -1, -4.0, 6.0)]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("swing", "distance", "sense", "offset", "radius"), CASES)
 def test_the_least_base_at_a_distance_is_that_of_bisection(
     swing: float, distance: float, sense: int, offset: float, radius: float

@@ -164,6 +164,7 @@ def test_a_groove_whose_flanks_meet_above_its_floor_is_refused(teeth: int) -> No
     assert 0 < nearest.value - 2 * half < 1.01e-4
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", belts())
 @pytest.mark.parametrize("more", [0, 13])
 def test_grooves_are_smooth_as_deep_and_as_wide_as_their_standard(name: str, more: int) -> None:

@@ -55,6 +55,7 @@ def test_taut_chains_are_hulls_of_both_polygons(teeth: tuple[int, int], links: i
         assert drive.above(first, second) + drive.below(first, second) == pytest.approx(hull.length, rel=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("teeth", "links"), DRIVES)
 @pytest.mark.parametrize("share", [1.0, 0.995])
 def test_every_link_is_a_pitch_long_at_every_phase(teeth: tuple[int, int], links: int, share: float) -> None:

@@ -69,6 +69,7 @@ def places(gear: FaceGear, which: int) -> Places:
     return gear.side(which, share.ravel(), radius.ravel())
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("case", CASES)
 @pytest.mark.parametrize("which", SIDES)
 def test_the_shaper_sweeps_up_to_the_side_and_no_deeper(case: Case, which: int) -> None:

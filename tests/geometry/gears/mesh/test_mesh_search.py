@@ -190,7 +190,7 @@ MANY = {"20 in 28": inside(20, 28), "60 in 69": inside(60, 69), "100 in 108": in
         "shifted": inside(60, 68, 0.2, 0.9)}  # fmt: skip
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", MANY)
 @pytest.mark.parametrize("turn", [0.0, 2e-4])
 def test_excluded_teeth_hold_nothing(name: str, turn: float, monkeypatch: pytest.MonkeyPatch) -> None:

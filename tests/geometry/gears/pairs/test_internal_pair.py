@@ -204,7 +204,7 @@ CONTACT_CASES = [(30, 60, 0.0, 0.0, 2.0), (25, 80, 0.2, 0.3, 1.0), (96, 144, 0.0
                  (40, 62, 0.1, 0.4, 0.5)]  # fmt: skip
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("z1", "z2", "x1", "x2", "module"), CONTACT_CASES)
 def test_contact_without_backlash(z1: int, z2: int, x1: float, x2: float, module: float) -> None:
     pair = pair_of(z1, z2, x1, x2, module)

@@ -268,7 +268,7 @@ def check_sound(pair: ExternalPair) -> None:
         assert driven.verdict is Verdict.CONTACT
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("index", range(60))
 def test_random_pairs(index: int) -> None:
     check_sound(random_pairs(11, 60)[index])

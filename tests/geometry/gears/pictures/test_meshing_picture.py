@@ -48,7 +48,7 @@ def places(picture: MeshingPicture) -> list[float]:
     return [picture.start + (picture.end - picture.start) * k / 6 for k in range(7)]
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CASES)
 def test_both_working_flanks_touch_on_the_line_of_action(name: str) -> None:
     picture = meshing_picture(pair_of(name))

@@ -68,6 +68,7 @@ def test_printed_tables(row: dict[str, Any]) -> None:
     assert replace(drive, number_of_pins=most_pins(slots, internal=False) + 1).dwell_angle < 1e-9
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("slots", range(3, 13))
 def test_the_greatest_acceleration_is_where_the_jerk_of_the_triangle_vanishes(slots: int) -> None:
     """With 30 digits; in a ring the acceleration grows until the pin leaves, where it is tan(pi / n)."""

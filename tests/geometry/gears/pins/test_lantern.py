@@ -47,7 +47,7 @@ def contact(gear: LanternGear, turn: float = 0.0, shift: float = 0.0, cut: Lante
     return pin_contact(lantern_side(cut or gear), LanternMotion(gear, turn, shift))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY
 def test_flanks_are_what_the_swept_pins_leave(gear: LanternGear) -> None:
     """Flanks a pin's radius from the pins' ways to 1e-10 of it, the rest of the tooth no nearer."""

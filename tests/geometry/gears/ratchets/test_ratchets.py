@@ -128,7 +128,7 @@ RIDES = [(name, 10.0, None) for name in WHEELS if name != "clockwise"]
 RIDES += [("straight back", 1.0, None), ("straight back", 30.0, 10.0), ("ring", 25.0, 60.0), ("notch of 60", 4.0, -5.0)]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("name", "clearance", "line"), RIDES)
 def test_a_pawl_rides_where_polygons_first_meet(name: str, clearance: float, line: float | None) -> None:
     """From where the tooth before it has let it drop to where the next one does."""
@@ -150,6 +150,7 @@ def blocked(pawl: PawlShape, turn: float) -> float:
     return max(float(one.intersection(fixed).area) for one in swung)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", WHEELS)
 def test_a_pawl_drops_where_the_edge_is_beyond_its_reach(name: str) -> None:
     """A little later all of its way down is free, a little earlier not; seated it overlaps nothing."""

@@ -93,7 +93,7 @@ def test_the_circle_of_the_former_stand_in_is_seen() -> None:
     assert 1e-3 < np.abs(found).max() < 0.05
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @EACH_GEAR
 @pytest.mark.parametrize("offset", [-0.1, 0.1])
 def test_an_offset_moves_the_section_by_it(normal: SpurGear, degrees: float, offset: float) -> None:
@@ -165,7 +165,7 @@ def measured(mesh: Mesh, body: Body, declared: float, samples: int = 5) -> float
     return worst
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("degrees", "teeth"), [(30.0, 23), (8.0, 60), (45.0, 12)])
 @pytest.mark.parametrize("tolerance", [0.05, 0.01])
 def test_meshes_keep_their_bound_and_the_bound_is_tight(degrees: float, teeth: int, tolerance: float) -> None:

@@ -70,7 +70,7 @@ def check_side(nominal: Profile, points: np.ndarray, offset: float) -> None:
         assert inside.all() if offset < 0 else not inside.any()
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize("name", GEARS)
 def test_path_at_its_distance(name: str, share: float) -> None:
@@ -79,7 +79,7 @@ def test_path_at_its_distance(name: str, share: float) -> None:
     check_path(gear, offset)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("share", [0.0375, 0.2, -0.0375, -0.2])
 @pytest.mark.parametrize("name", ["z23", "undercut", "relief", "full round", "shifted out"])
 def test_nothing_is_missing_from_the_path(name: str, share: float) -> None:
@@ -165,7 +165,7 @@ def test_a_chamfer_stays_a_line() -> None:
     assert {type(s.curve) for s in period if s.label is Label.TIP_BREAK} == {Line}
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", GEARS)
 @pytest.mark.parametrize("share", [0.40, 0.6, 1.2])
 def test_trimmed_cusps(name: str, share: float) -> None:

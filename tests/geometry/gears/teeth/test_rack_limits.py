@@ -185,6 +185,7 @@ def test_an_offset_is_refused_from_a_limit_on(made: Rack, offset: float, code: s
     assert abs(refused.value.nearest_offset) <= abs(offset) * (1 + 1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("keys", [{}, {"tip_chamfer": 0.3}, {"tip_chamfer": 0.9}, {"tip_rounding": 0.4}])
 def test_a_tip_that_is_used_up_ends_in_an_edge(keys: dict[str, float]) -> None:
     """Drawn in by more than its half width lets: the flanks, or what is left of chamfers, meet on the centre line."""

@@ -71,7 +71,7 @@ def sweep_distance(gear: RingGear, points: int = 120) -> np.ndarray:
     return found / gear.root_radius
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @EVERY
 def test_outline_against_the_swept_cutter(gear: RingGear) -> None:
     checked_ring(gear)
@@ -356,7 +356,7 @@ USED_UP: dict[str, tuple[RingGear, float, set[str]]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", USED_UP)
 def test_a_moved_ring_lies_at_its_distance_whatever_is_used_up(name: str) -> None:
     """Every point of a period so far from the outline, none nearer to it, the hole as large as GEOS' buffer of it."""

@@ -62,7 +62,7 @@ def test_small_rings_are_made_and_nothing_trims_their_tips(gear: RingGear) -> No
     assert trimmed(made) <= 1e-12
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY
 def test_a_tip_that_yields_is_the_deepest_that_any_cutter_leaves(gear: RingGear) -> None:
     """A hundredth of a module deeper, and every cutter there is reaches into the flank, or there is no involute."""
@@ -134,6 +134,7 @@ def test_any_small_ring_is_refused_with_reason_or_what_its_cutter_leaves(
     assert trimmed(gear) <= 1e-12
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("ring", "pinion", "degrees"), [(30, 17, 20.0), (40, 17, 32.0), (24, 10, 20.0)])
 def test_pairs_with_small_rings_touch_and_do_not_overlap(ring: int, pinion: int, degrees: float) -> None:
     hole = checked_ring(settled_ring(bare(ring, degrees)))

@@ -85,6 +85,7 @@ def test_the_field_is_where_the_thread_reaches_beyond_the_tip(name: str) -> None
         assert sorted({x for span in spans for x in span}) == list(one.teeth.breaks)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["whole", "no tip", "no foot"])
 def test_lines_go_on_between_the_heights_at_which_they_reach_a_border(name: str) -> None:
     one = field(name)

@@ -144,7 +144,7 @@ def _tooth(drive: WormDrive, radius: float, distance: float) -> float:
     return radius * (2 * math.pi / drive.number_of_teeth - space)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("form", sorted(FORMS))
 @pytest.mark.parametrize("distance", [-9.0, 0.0, 9.0])
 def test_the_wheel_touches_its_worm_and_nothing_more(form: str, distance: float) -> None:

@@ -211,6 +211,7 @@ def test_a_chamfered_hub_and_keyway() -> None:
     assert mesh.bounds[1][2] == pytest.approx(16.0)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("tolerance", [1.0, 0.1, 0.01])
 def test_a_cam_without_bore_whose_base_circle_has_few_corners(tolerance: float) -> None:
     """What stands on the lowest circle of a cam is no ring of spaces between teeth."""

@@ -106,6 +106,7 @@ def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
 SMALL: Keys = ROLLERS | {"base_circle_radius": 4.0, "lift": 2.0, "follower_radius": 1.5, "bore_diameter": 2.0}
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("cam", "keys"),
     [

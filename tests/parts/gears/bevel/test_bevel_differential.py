@@ -190,6 +190,7 @@ def test_what_a_satellite_strikes_as_it_comes_round_is_found(beside: float) -> N
         assert found["depth"] < 0.2
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("axis", [[0.0, 1.0, 0.0], [1.0, -2.0, 2.0], [0.0, 0.0, -1.0]])
 def test_a_differential_laid_as_a_whole_moves_as_the_upright_one(axis: list[float]) -> None:
     """Invariance: all goes as in the upright scene, under one rigid motion, the drives alike."""
