@@ -129,6 +129,7 @@ def test_a_file_that_stands_is_told_before_the_page_is_made(tmp_path: Path, caps
     assert "exists already" in capsys.readouterr().err
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("name", "begins"), [
     ("p.html", "<!DOCTYPE html>"), ("p.HTM", "<!DOCTYPE html>"), ("p.md", "# External gear"), ("p.json", "{"),
     ("p.csv", "higherpair"), ("p.txt", "External gear"), ("p", "External gear"),

@@ -462,6 +462,7 @@ def test_a_slip_in_a_command_is_told_in_one_line(
     assert not [*tmp_path.iterdir()]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("before", [True, False])
 def test_the_language_is_heard_before_the_command_and_behind_it(
     before: bool, capsys: pytest.CaptureFixture[str]

@@ -1117,6 +1117,7 @@ def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
         assert again[name] == pytest.approx(got[name], rel=1e-12), name
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("teeth", "table", "shifts", "note"),
     [
@@ -1248,6 +1249,7 @@ def test_the_least_length_of_a_worm_goes_by_the_shift(shift: float, starts: int,
     assert values_of(words)["values"]["least_worm_length"] == pytest.approx(least, rel=1e-12)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "words", ["number_of_teeth=22", "number_of_teeth=13", "number_of_teeth=31 helix_angle_deg=20", "number_of_teeth=57"]
 )

@@ -381,6 +381,7 @@ def test_printed_rows_are_the_numbers_of_json() -> None:
     assert {"∞", "number"} <= seen
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("angles", "jerks"), [((180.0, 180.0, 0.0), 2), ((170.0, 190.0, 0.0), 0), ((120.0, 120.0, 120.0), 0)]
 )
@@ -404,6 +405,7 @@ def test_a_jump_is_that_of_the_law_which_has_it(law: str, jerk: str) -> None:
     assert re.findall(r"C_j = (\S+)", calculate("cam", words, "text", "en")) == [jerk, "∞"]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("sense", ["against", "with"])
 def test_the_page_of_a_swinging_follower_tells_pivot_and_arm(sense: str) -> None:
     """The roller's centre, pivot and axis make a triangle: (R + r)^2 = d^2 + L^2 - 2 d L cos psi_0."""

@@ -276,6 +276,7 @@ def test_plans_close(keys: tuple[str, ...]) -> None:
     assert closed == {"assignment=8": 2, "code=1071": 4}.get(keys[0], 5)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("keys", "link", "end"), [(("assignment=10",), "5", "D"), (("assignment=4",), "3", "B")], ids=str
 )
@@ -461,6 +462,7 @@ def test_the_choice_by_number_is_that_of_the_guidelines() -> None:
     assert value(data, "l_CD") / value(data, "l_CO3") == pytest.approx(right["CD/CO3"])
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "words",
     ["lever code=1071", "lever assignment=4 variant=3", "lever assignment=8 variant=2", "lever assignment=10",
@@ -491,6 +493,7 @@ def test_the_picture_shows_scheme_plans_and_diagrams(tmp_path: Path) -> None:
     assert np.allclose(np.array(sizes) / sizes[0], np.array(sorted([300, 1080, 270, 756])) / 270, rtol=1e-3)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("assignment", "link"), [(10, "5"), (1, None)])
 def test_the_diagrams_are_those_of_what_the_output_does(assignment: int, link: str | None, tmp_path: Path) -> None:
     """A rocker turns: its angle, angular velocity and acceleration, as its sheet has them; a slider travels."""
@@ -513,6 +516,7 @@ def test_the_diagrams_are_those_of_what_the_output_does(assignment: int, link: s
         assert (low, high) == pytest.approx((min(values.min(), 0), max(values.max(), 0)), rel=1e-3)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("count", [12, 8])
 def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Path) -> None:
     file = tmp_path / "lever.svg"

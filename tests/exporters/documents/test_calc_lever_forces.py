@@ -81,6 +81,7 @@ def test_the_mean_balancing_moment_is_the_flywheels_driving_moment(assignment: i
     assert value(data, "M_b,m") == pytest.approx(value(data, "M_d"), abs=1e-12 * span)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("angle", [40, 130, 260, 345])
 def test_a_piston_by_the_textbook(angle: int) -> None:
     """Rod F / cos(beta), thrust F tan(beta), moment F r sin(phi + beta) / cos(beta); against the motion."""

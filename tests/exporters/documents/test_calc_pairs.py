@@ -102,6 +102,7 @@ def test_a_hand_that_is_turned_by_the_sign_of_the_angle_changes_no_number(kind: 
             values_of(f"{pair} first.helix_angle_deg=20 {alone}.double_helical=true")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("words", SHEETS)
 def test_every_printed_formula_gives_its_value(words: str) -> None:
     checked = [step for step in sheet_for(words).steps() if step.formula]
@@ -111,6 +112,7 @@ def test_every_printed_formula_gives_its_value(words: str) -> None:
     assert any(abs(evaluated(step, 1e-3) - float(step.value)) > 1e-6 for step in checked)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("words", ["gear-pair thesis_internal_pair", "gear-pair rack_and_pinion"])
 def test_every_form_and_language(words: str, language: str) -> None:
@@ -145,6 +147,7 @@ def test_sliding_on_a_rack_is_the_difference_of_both_speeds() -> None:
     assert found["angle_of_action_deg"]["first"] == pytest.approx(found["effective_contact_ratio"] * 360 / 20, rel=1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("helix", [0.0, 25.0, -12.0])
 @pytest.mark.parametrize(
     "kind",

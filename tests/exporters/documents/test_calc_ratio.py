@@ -41,6 +41,7 @@ def front(ratio: Fraction, stages: int, share: Fraction, *, coaxial: bool) -> se
     return {tuple(z for a, b in zip(t[::2], t[1::2], strict=True) for z in (b, a)) for t in kept}
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("ratio", ["3.2", "1", "2.718281828", "0.31", "3.5"])
 @pytest.mark.parametrize("share", ["0", "0.002", "0.05"])
 def test_one_pair_has_the_fewest_teeth_of_all(ratio: str, share: str) -> None:
@@ -82,6 +83,7 @@ def test_the_page_tells_the_fewest_teeth_and_355_of_113(capsys: pytest.CaptureFi
     assert any(line.startswith("19.0,47.0,12.0,60.0,") for line in capsys.readouterr().out.splitlines())
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("words", "told"),
     [

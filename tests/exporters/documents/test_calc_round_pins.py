@@ -67,6 +67,7 @@ def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     assert [s.name for s in spoilt] == []
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("topic", ["cycloidal", "lantern", "cycloidal-gear", "noncircular"])
 def test_both_languages_in_every_format(topic: str) -> None:
     page, _ = sheet_of(topic, next(w for w in SHEETS if w[0] == topic)[1:])

@@ -41,6 +41,7 @@ def test_loops_are_chained_from_pieces_in_any_order_and_sense() -> None:
     assert chained([]) == []
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("lost", [0, 350, 699])
 def test_an_open_loop_is_told(lost: int) -> None:
     pieces = ring(0j, 30.0, 700)
@@ -60,6 +61,7 @@ def step_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out" / "s" / "g.step"
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("flank", "turn"), [(0, -0.9), (20, 0.9)])
 def test_a_wall_that_crosses_another_is_seen(step_file: Path, tmp_path: Path, flank: int, turn: float) -> None:
     text = step_file.read_text()

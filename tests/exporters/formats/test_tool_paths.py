@@ -62,6 +62,7 @@ def test_a_chain_that_is_met_at_its_end_is_run_backwards(tmp_path: Path) -> None
     assert path == [[0, 0, 10, 0, 0], [10, 0, 15, 5, -0.0], [15, 5, 20, 8, -0.25]]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("angles", "count"), [((10, 100), 1), ((10, 190), 1), ((10, 191), 2), ((300, 60), 1), ((60, 300), 2)]
 )

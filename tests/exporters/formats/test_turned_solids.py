@@ -58,6 +58,7 @@ def text_of(name: str) -> str:
     return step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm())
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SHAPES)
 def test_volume_and_area_are_those_of_the_formula(name: str, tmp_path: Path) -> None:
     (file := tmp_path / "p.step").write_text(text_of(name), "ascii")
@@ -70,6 +71,7 @@ def test_volume_and_area_are_those_of_the_formula(name: str, tmp_path: Path) -> 
     assert model.bounds > 0
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SHAPES)
 def test_no_face_may_be_turned_over(name: str, tmp_path: Path) -> None:
     """Each one has its bounds run round it the other way then; round a pole it is the rest of a ball."""

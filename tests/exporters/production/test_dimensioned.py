@@ -252,6 +252,7 @@ def diameters(document: Drawing) -> list[str]:
     return sorted(text.replace("%%c", "Ø") for text in found if "%%c" in text)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("journal", [(30, 25, 20), (25, 30, 20)])
 def test_a_groove_as_wide_as_a_step_takes_no_zone_from_it_and_gives_none(
     tmp_path: Path, journal: tuple[int, ...]

@@ -68,6 +68,7 @@ def test_of_a_part_its_section_its_hull_or_both_are_seen(tmp_path: Path) -> None
     assert shape(thread).buffer(0.05).contains(shape(section))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("wide", "high"), [(60.0, 20.0), (24.0, 20.0), (19.0, 20.0), (14.0, 8.0), (3.0, 3.0)])
 def test_words_are_the_largest_that_have_room(wide: float, high: float, tmp_path: Path) -> None:
     """Letters of a fiftieth of the bed, three quarters or 0.55 of it; the name with its number, else the number."""

@@ -97,6 +97,7 @@ def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
     assert told(flat) == (False, 20.0)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("turns", [65.0, -95.0])
 def test_a_pinion_of_many_turns_goes_the_right_way_round(tmp_path: Path, turns: float) -> None:
     """A rack's whole way is one loop: more turns than values would be seen as fewer ones backwards."""

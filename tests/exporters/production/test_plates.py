@@ -258,6 +258,7 @@ offset = {offset}
 """
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("offset", [1e-6, 1e-5])
 def test_an_offset_of_almost_nothing_lies_as_the_gear_itself(offset: float) -> None:
     """Where an undercut tooth has edges as long: before, a traceback of outlines that cross."""

@@ -126,6 +126,7 @@ def test_letters_of_a_small_picture_are_not_too_small_for_any_program(built: Pat
     assert all(0.05 < size < 0.1 and 3 < x < x + 0.6 * size * len(row) < width for row, x, _, size in words(root))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("scene", ["cycloidal_reducer", "fit_coupon", "bevel_reducer", "practicum_example_3"])
 def test_no_two_instances_of_a_picture_have_one_name_and_none_its_id(scene: str) -> None:
     """But where parts without a title are of one kind: there the id stands after that, of instances a number too."""

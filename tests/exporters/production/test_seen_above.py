@@ -26,6 +26,7 @@ STEPS = (
 )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("text", [WHEEL, PINION, STEPS])
 def test_silhouettes_are_alike_on_both_sides_and_cross_nowhere_once_they_are_rounded(text: str) -> None:
     """Any way of lying, with the six digits of an animated SVG; hulls of circles seen edge on lost a half of them."""

@@ -301,6 +301,7 @@ def test_what_a_recipe_makes_is_called_in_the_language_of_the_scene(scene: str) 
         assert not [name for name in names.values() if not re.fullmatch(rf"[{letters}'’() 0-9]+", name)]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_of_two_assemblies_of_one_kind_each_part_is_called_by_its_own(language: str) -> None:
     made = load_scene("compound_two_stage", language)

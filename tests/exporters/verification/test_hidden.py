@@ -309,6 +309,7 @@ def test_a_drawing_that_was_only_saved_again_passes(name: str, good: Path, tmp_p
     assert run("verify", tmp_path / name) == 0
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [

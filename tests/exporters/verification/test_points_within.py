@@ -106,6 +106,7 @@ def test_a_spline_face_is_looked_for_in_its_own_surface_alone(monkeypatch: pytes
     assert len(asked) == sum(len(patches.faces) for patches in model.patches)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["hub", "chamfered", "plate"])
 def test_walls_are_looked_at_over_their_feet_and_between_their_copies(name: str) -> None:
     """Extrusions of flanks: six heights over each node, from one end to the other; feet on the profile."""

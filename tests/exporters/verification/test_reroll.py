@@ -53,6 +53,7 @@ def dense(file: Path) -> np.ndarray:
     return np.concatenate(points)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("kind", FollowerKind)
 @pytest.mark.parametrize("swings", [False, True])
 def test_an_eccentric_disk_lifts_as_its_triangle_says(kind: FollowerKind, swings: bool) -> None:

@@ -321,6 +321,7 @@ def test_the_angle_of_a_normal_is_square_to_the_tangent_there(stretch: float) ->
         assert (tangent * np.exp(-1j * normal)) == pytest.approx(1j, abs=1e-14)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", [name for name in EXAMPLES if name.startswith(("mirrored", "carried"))])
 def test_laws_of_what_is_mirrored_and_carried(name: str) -> None:
     """As of the curve itself; bounds of stretches are those of the stretches they come from, ends in their order."""

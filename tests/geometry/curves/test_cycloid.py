@@ -160,6 +160,7 @@ def test_vertices_and_inflections_lie_where_they_are_told() -> None:
     assert np.allclose(curve.splits(), expected, atol=1e-5)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("order", [2.0, 3.0, 8.0, 40.0])
 def test_the_greatest_shortening_leaves_just_the_pin(order: float) -> None:
     """Both closed forms invert the least convex radius, on either side of where they meet."""

@@ -35,6 +35,7 @@ def test_energy_of_half_a_sine_is_known() -> None:
     assert wheel.gained[-1] == pytest.approx(0, abs=1e-9)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("unevenness", "mass", "near"), [(0.05, 0.0, 2e-3), (0.01, 8.0, 2e-2), (0.04, 8.0, 8e-2)])
 def test_the_machine_runs_as_evenly_as_asked(unevenness: float, mass: float, near: float) -> None:
     """The equation of motion with that flywheel: right without masses of links, with them to first order."""

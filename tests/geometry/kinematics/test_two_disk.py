@@ -50,6 +50,7 @@ def scattered(table: TwoDisk, count: int) -> np.ndarray[Any, Any]:
     return far * np.exp(1j * rng.uniform(-math.pi, math.pi, count))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("arms", [(72.0, 72.0), (72.0, 50.0), (50.0, 72.0), (216.0, 72.0)])
 @pytest.mark.parametrize("elbow", [1, -1])
 def test_there_and_back_over_the_whole_reach(arms: tuple[float, float], elbow: int) -> None:
@@ -190,6 +191,7 @@ SQUARE: list[Piece] = [Line(-60 - 60j, 60 - 60j), Line(60 - 60j, 60 + 60j), Line
 ABOUT_O1: list[Piece] = [Arc(0j, 90.0, 0.3, 2 * math.pi)]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("path", "jump"),
     [

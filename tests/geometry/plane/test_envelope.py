@@ -73,6 +73,7 @@ def nearest(curves: list[EnvelopeCurve], t: float, point: complex) -> float:
     return min(abs(complex(c.point(t)) - point) for c in curves if c.start <= t <= c.end)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("degrees", [30, 60, 100])
 def test_savvins_general_case(degrees: int) -> None:
     """Both bodies in general plane motion, a roller; A, B, F and R as recomputed from the printed formulas."""

@@ -34,6 +34,7 @@ def test_a_roller_presses_a_strand_from_outside(roller: float, height: float) ->
     assert loop.wraps == pytest.approx((wrap, own, wrap), rel=1e-12)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_circles_inside_are_wrapped_by_their_hull(seed: int) -> None:
     rng = np.random.default_rng(seed)

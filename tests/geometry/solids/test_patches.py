@@ -66,6 +66,7 @@ def scipy_point(made: Patch, row: int, shares: Real, orders: tuple[int, int] = (
     return np.array(found)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("u", "v"), [(CUBIC, QUADRATIC), (QUADRATIC, CUBIC), (LINEAR, CUBIC), (QUADRATIC, LINEAR)])
 def test_points_and_derivatives_are_scipy_s(u: Way, v: Way) -> None:
     made, rng = bent(u, v, rows=2), np.random.default_rng(5)

@@ -52,6 +52,7 @@ def test_a_line_meets_a_boundary_where_plane_geometry_has_it(lean: float) -> Non
     assert Ring((Arc(4 + 2j, 3.0, 0.0, 2 * math.pi),)).crossings(4 + 2j, way) == pytest.approx([-3.0, 3.0])
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("begins", [k * math.pi / 12 for k in range(24)])
 @pytest.mark.parametrize("count", [2, 4])
 def test_a_line_through_joints_of_a_round_boundary_meets_it_twice(count: int, begins: float) -> None:

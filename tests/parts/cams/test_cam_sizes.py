@@ -201,6 +201,7 @@ def steepest(parts: tuple[np.ndarray, ...], s0: float, e: float) -> float:
     return float(np.degrees(np.abs(np.arctan((parts[1] - e) / (s0 + parts[0]))).max()))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("rise", "back", "e"), [(60.0, 50.0, 6.0), (60.0, 15.0, 6.0), (70.0, 65.0, -4.0)])
 def test_the_return_may_have_a_transmission_angle_of_its_own(rise: float, back: float, e: float) -> None:
     """The cam is the least of which both hold by dense samples; the finding tells which does not of a smaller one."""
@@ -474,6 +475,7 @@ BARREL_LIMITS: list[tuple[Raw, str, str, float, str, float]] = [
 ]  # fmt: skip
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("raw", "key", "code", "limit", "side", "near"), BARREL_LIMITS)
 def test_a_barrel_is_as_long_and_as_thick_as_its_groove_needs(
     raw: Raw, key: str, code: str, limit: float, side: str, near: float
@@ -560,6 +562,7 @@ DRILLED = with_key(
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("raw", "key", "code", "limit", "side"),
     [

@@ -53,6 +53,7 @@ def test_both_turn_the_same_way_and_touch_no_roller_wrongly() -> None:
     assert back["chain_slack"] == pytest.approx(2e-6, rel=0.1)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("links", [58, 61, 64, 80, 101])
 def test_a_chain_that_gives_its_distance_is_taut(links: int) -> None:
     """``chain -9.02e-14 mm longer than taut`` was told of 61 links."""

@@ -317,6 +317,7 @@ def test_what_is_of_one_piece_has_no_edge_within_its_section(name: str) -> None:
         assert any(inside(size.end + 0.01 * cmath.exp(1j * turn)) for turn in range(6)), size
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("view", "hatched"),
     [(Placement3(), False), (SIDE, False), (Placement3(((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))), True)],

@@ -189,6 +189,7 @@ def test_circles_too_large_are_refused_with_the_largest(teeth: int, key: str, mo
     make_parts(scene_from_dict({"parts": {"wheel": wheel | {key: most}}}, "t", "t"), "t")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("off", [-0.8, -0.6, 0.0, 0.6, 0.8])
 def test_a_pinion_that_stands_by_itself_is_held_against_the_play(off: float) -> None:
     """Half of 0.2 mm on a radius of 8 mm is 0.716 degrees; what the turn takes of it is missing in the gap."""

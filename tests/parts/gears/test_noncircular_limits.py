@@ -153,6 +153,7 @@ def test_a_ratio_is_that_of_the_mate(key: str, given: list[float], told: str, wo
     assert refused(with_key(wrong, found.key, works or GONE)) is None
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("role", ["driver", "mate"])
 def test_the_table_of_a_gear_follows_its_own_angle(role: str) -> None:
     """About its focus an ellipse has r = p / (1 - e cos phi), its like r_2 = 2 a - r_1, with i = r_1 / r_2."""

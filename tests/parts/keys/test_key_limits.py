@@ -32,6 +32,7 @@ def phases(*rows: tuple[Any, ...]) -> Raw:
     return scene_of(ROLLER | {"phases": made})
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("angles", "blamed", "fits"),
     [

@@ -314,6 +314,7 @@ def drawn(random: Random) -> StraightSplineTable | InvoluteSplineTable:
     return InvoluteSplineTable(f"{beside(diameter)}x{module}{tail}")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_any_designation_is_read_back_by_its_name_or_refused_with_what_is_read(seed: int) -> None:
     random, made, cures = Random(seed), 0, list[StraightSplineTable | InvoluteSplineTable]()

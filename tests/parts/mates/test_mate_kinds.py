@@ -50,6 +50,7 @@ def overlap(made: dict[str, Part], stand: Any, first: str, second: str, extra: f
     return one.intersection(two).area, one.distance(two)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("direction", [0.0, 33.0, -120.0])
 @pytest.mark.parametrize("ring_first", [True, False])
 def test_a_pinion_stands_in_its_ring_in_either_order(direction: float, ring_first: bool) -> None:
@@ -75,6 +76,7 @@ def test_a_rack_stands_under_its_gear(teeth: int, direction: float) -> None:
     assert overlap(made, stand, "rack", "wheel", extra=math.pi / 31)[0] > 1.0
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ["internal_gear_pair", "rack_pair", "external_gear_pair"])
 def test_a_wanted_backlash_thins_both_by_half(kind: str) -> None:
     parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
@@ -346,6 +348,7 @@ def by_hand(height: float, turned: float, **keys: Any) -> dict[str, Any]:
     return {c.code: c for c in found.conditions} | {"face": found.mating.face}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("height", [4.0, -4.0, 10.0, 11.0])
 def test_helical_gears_at_different_heights_meet_where_the_lead_has_turned_them(height: float) -> None:
     """A right-hand gear's section turns on with its height; the mate sees the one that is at its lower face."""

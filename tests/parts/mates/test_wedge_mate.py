@@ -154,6 +154,7 @@ def test_followers_placed_by_hand_are_held_against_their_travel(kind: str, side:
         assert has_bad_verdict(by_hand(*off)), off
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("side", ["trailing", "leading"])
 def test_an_arm_that_is_turned_by_hand_rises_by_its_own_turn(side: str) -> None:
     """Its pivot stays: a thousandth of a radian lifts or lowers an end of 80 mm by 0.08 mm, seen along its way."""

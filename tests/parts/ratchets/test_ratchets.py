@@ -447,6 +447,7 @@ def test_a_pawl_is_for_one_wheel() -> None:
     assert (refused.value.key, refused.value.code) == ("mates[1]: parts.pawl.of", "made_for_another_wheel")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("angle", [-20.0, -10.0, 0.0, 12.0, 45.0])
 def test_a_tail_adds_to_the_pawl(angle: float) -> None:
     """Its area lies between that of the pawl without and that with all of the tail beyond the boss.

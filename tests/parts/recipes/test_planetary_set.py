@@ -104,6 +104,7 @@ def test_every_set_is_in_contact_in_phase_and_runs_into_nothing(name: str, capsy
     assert all(c["met"] for m in found["mates"] for c in m.get("conditions", ()))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "keys",
     [

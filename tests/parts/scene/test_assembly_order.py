@@ -286,6 +286,7 @@ format = "stl"
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("along", "turn", "height", "first", "second", "hit"),
     [

@@ -75,6 +75,7 @@ def _working_distance(shift: float) -> float:
     return 47.0 * math.cos(alpha) / math.cos(low)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("shift", [0.1, 0.55])
 @pytest.mark.parametrize("turned", [None, 25.0])
 def test_a_frame_follows_the_shifts_of_its_gears(shift: float, turned: float | None, tmp_path: Path) -> None:

@@ -132,6 +132,7 @@ def test_thinned_teeth_may_stand_nearer_and_have_the_backlash_that_is_asked(
     assert refused.value.key.endswith("normal_backlash")
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("kind", "own", "distance"),
     [
@@ -209,6 +210,7 @@ def test_a_distance_that_gives_more_names_the_normal_one() -> None:
     mated("external_gear_pair", working_centre_distance=58.0, normal_backlash=least)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("kind", "share"), [("external_gear_pair", 1.1), ("internal_gear_pair", 0.9), ("rack_pair", 1.3)]
 )

@@ -108,6 +108,7 @@ def ring_of(inner: float, outer: float, half: float) -> float:
     return under(outer) - under(inner)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("coming", "standing", "along", "volume"),
     [

@@ -79,6 +79,7 @@ def test_a_plate_as_wide_as_its_stem_is_one_with_it() -> None:
     assert area(edges) == pytest.approx(800.0, rel=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("width", "offset", "boss"), [
     (6.0, 3.0, 10.0), (20.0, 10.0, 10.0), (20.0, 2.0, 10.0), (12.0, 9.0, 10.0), (6.0, -4.0, 10.0), (6.0, 10.0, 10.0),
 ])  # fmt: skip
@@ -101,6 +102,7 @@ def test_a_bar_with_a_boss_where_it_is_too_narrow(width: float, offset: float, b
     same(flat_arm(60.0, width, offset, boss, sense), wanted)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("height", [10.0, 0.0])
 def test_hooked_arms(sense: int, height: float) -> None:

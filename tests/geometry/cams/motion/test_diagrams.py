@@ -43,6 +43,7 @@ def test_points_are_those_of_the_motion(law: str) -> None:
     assert np.abs(joint.point(t) - 2 * (piece.value(t, 1) + 1j * piece.value(t))).max() < 1e-12
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("law", LAWS)
 def test_derivatives_bounds_and_tangents(law: str) -> None:
     for curve in curves(law):
@@ -64,6 +65,7 @@ def test_derivatives_bounds_and_tangents(law: str) -> None:
             assert abs(cmath.phase(complex(curve.tangent(end)) / chord)) < 2e-2
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-6])
 def test_splines_keep_their_tolerance(law: str, tolerance: float) -> None:

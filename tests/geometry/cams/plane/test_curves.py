@@ -236,6 +236,7 @@ def test_splines_stay_within_a_nanometre(name: str, degree: int) -> None:
     assert float(distance_to_profile(points, profile, trusted=0.0).max()) <= made.max_error * (1 + 1e-9)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", whole_cams())
 def test_profiles_are_counter_clockwise_and_dwell_on_arcs(name: str) -> None:
     cam = whole_cams()[name]

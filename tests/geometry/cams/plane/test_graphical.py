@@ -123,6 +123,7 @@ def roller() -> DiskCam:
     return translating_cam(moves, FollowerKind.ROLLER, 17.2, radius=8.0, follower_offset=3.0)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("drawing", list(Drawing))
 def test_the_error_falls_with_the_square_of_the_number(drawing: Drawing) -> None:
     cam = roller()

@@ -326,6 +326,7 @@ def test_an_undercut_cam_is_trimmed_and_the_lost_lift_is_what_a_follower_loses(k
         assert gap.lost_lift >= told.max() - 1e-12
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CASES)
 def test_rolled_over_a_circle_it_moves_as_40_digits_say(name: str) -> None:
     """The cam's own law does not enter: an eccentric disk of the follower's least size, read back as two arcs."""

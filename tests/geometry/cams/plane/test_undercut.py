@@ -207,6 +207,7 @@ def test_a_jump_of_velocity(kind: FollowerKind) -> None:
         assert profile_area(shape.profile) > 0
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("grow", [-2.0, -0.05, -1e-3, 1e-3, 0.05, 2.0])
 def test_small_loops_at_corners_are_seen(grow: float) -> None:
     """A parallel of a cornered outline: the loops are as small as the offset, and every point keeps its distance."""

@@ -59,6 +59,7 @@ def on_cutter(gear: BevelGear | ToothLine, distance: float) -> float:
         return float(mpmath.arg(place(found)))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LINES)
 def test_the_section_turns_along_the_circle_of_the_cutter(name: str) -> None:
     """Right-hand teeth run off clockwise outwards, and the crown gear's turn is that of the circle about the apex."""

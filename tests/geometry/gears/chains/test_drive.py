@@ -112,6 +112,7 @@ def test_textbooks_are_as_near_as_their_circles() -> None:
     assert exact_distance((9, 9), 30, 4.0) == pytest.approx(11 - 2 * radius * math.cos(4 * math.pi / 9), rel=1e-12)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("form", [IsoForm(), IsoForm(1.0), GostForm(), GostForm(displaced=True)], ids=repr)
 def test_rollers_touch_and_cut_no_teeth(form: IsoForm | GostForm) -> None:
     mesh = meshed((11, 17), 44, form, share=0.998)
@@ -167,6 +168,7 @@ def test_taut_chains_about_an_idler_inside_are_hulls_of_three_polygons() -> None
     assert drive.longest() == pytest.approx(max(lengths), rel=1e-12)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("idlers", [(INSIDE,), (OUTSIDE,), (INSIDE, OUTSIDE), (SMOOTH,)])
 def test_every_link_about_idlers_is_a_pitch_long_and_seated(idlers: tuple[Wheel, ...]) -> None:
     """So many links go round at every phase; with two fewer some strand would be longer than its links."""

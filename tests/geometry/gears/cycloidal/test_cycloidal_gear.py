@@ -250,6 +250,7 @@ def test_a_full_round_touches_both_teeth(gear: CycloidalGear) -> None:
     assert caught.value.name == "root_rounding"
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("circle", "depth"), [(2.0, 0.3), (1.0, 0.3), (6.0, 0.15)])
 def test_the_greatest_fillet_of_a_shallow_root_passes_through_the_pitch_point(circle: float, depth: float) -> None:
     """A circle that touches root circle and flank and cuts nothing of it: before, it cut by 0.2 % of its radius."""

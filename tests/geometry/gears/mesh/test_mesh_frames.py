@@ -122,6 +122,7 @@ def test_corners_are_looked_for_as_long_as_they_lie_within_the_mate(name: str, w
 
 
 @ALL
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("side", [0, 1])
 def test_flanks_are_as_far_apart_as_the_closed_form_says(name: str, side: int) -> None:
     """Turned on by its share of the play a side touches; by more it overlaps by the arm of the line of action."""

@@ -123,6 +123,7 @@ def check_section(pair: ExternalPair) -> None:
 ROUND = [(105, 47, 45.0), (33, 74, 42.0), (60, 45, 45.0)]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("z1", "z2", "degrees"), ROUND)
 def test_a_short_interruption_between_round_tips_is_seen(z1: int, z2: int, degrees: float) -> None:
     def at(rounding: float) -> ExternalPair:

@@ -266,6 +266,7 @@ def test_a_face_of_a_pitch_and_more_is_ruled_by_the_greatest_of_all(overlap: flo
     assert set(error.over_face(overlap).errors) == {0.25}
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("overlap", [0.07, 0.31, 0.8])
 def test_a_face_is_ruled_by_its_section_that_is_farthest_ahead(overlap: float) -> None:
     """Against the greatest of a fine row of sections of the same broken line, wherever the face begins."""

@@ -237,6 +237,7 @@ def test_the_line_of_centres_of_placements() -> None:
     assert feet == pytest.approx((2.0, -7.0), abs=1e-12)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("own", [0, 1])
 def test_places_beside_a_tips_edge_are_as_deep_as_the_nearest_of_flank_and_tip_in_space(own: int) -> None:
     """Against a cloud of points of the gear's screw surfaces; in the section the tip cylinder may be nearer."""

@@ -247,6 +247,7 @@ def test_a_hole_that_grows_into_the_side_of_a_cut_sector_is_refused() -> None:
     assert polygon(section.outer).contains(polygon(section.holes[0]))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("sector", [Sector(5, 0), Sector(3, 0, 1, None, 14.0)])
 @pytest.mark.parametrize("offset", [1.0, 3.0])
 def test_spaces_within_a_run_close_before_those_beside_it(sector: Sector, offset: float) -> None:

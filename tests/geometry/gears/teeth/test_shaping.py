@@ -61,6 +61,7 @@ def sweep_distance(gear: SpurGear, points: int = 100) -> np.ndarray:
     return least_distance(turned, tool, -gear.number_of_teeth, gear.generating_distance) / gear.tip_radius
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("gear", CASES.values(), ids=CASES.keys())
 def test_outline_against_the_swept_cutter(gear: SpurGear) -> None:
     checked_gear(gear)

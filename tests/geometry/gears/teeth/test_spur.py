@@ -142,6 +142,7 @@ def test_any_gear_is_what_the_rack_leaves(gear: SpurGear) -> None:
     assert abs(end_point(last.curve).imag) <= RIGHT * gear.tip_radius
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("place", [0.02, 0.5, 0.98], ids=["start", "middle", "end"])
 @pytest.mark.parametrize("label", [Label.ROOT_FILLET, Label.FLANK])
 def test_both_oracles_see_a_hair(label: Label, place: float) -> None:

@@ -129,6 +129,7 @@ def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
     assert found.Mass() == pytest.approx(worm_moments(body).volume, rel=1e-8)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("starts", [1, 2, 3])
 def test_moments_are_those_of_the_thread_cut_into_cells(starts: int) -> None:
     worm = Worm(5.0, starts, 8.0, "ZA", hand="left", fillet_coefficient=0.0)

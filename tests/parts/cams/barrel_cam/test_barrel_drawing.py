@@ -56,6 +56,7 @@ def same(one: shapely.Polygon, other: shapely.Polygon) -> bool:
     return bool(one.symmetric_difference(other).area < 1e-6)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("hub", [None, HUB])
 def test_the_section_of_a_groove_has_its_two_walls(hub: dict[str, float] | None) -> None:
     """Margin 5, roller 10 and lift 18: 38 long; the groove from 5 to 15 at +x, from 23 to 33 at -x."""

@@ -53,6 +53,7 @@ def built(folder: Path, keys: Keys, *formats: str) -> tuple[Path, dict[str, Any]
     return folder / "o" / "s", read_report(folder / "o" / "s")
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", MOUNTS)
 def test_walls_of_an_eccentric_disk_are_circles(name: str) -> None:
     """The lift over a disk about a point 9 mm off the axis, at 40 digits: both walls are circles about that point."""

@@ -47,6 +47,7 @@ def tables(canvas: Canvas) -> list[Box]:
     return found
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("paper", "count"), [("A4", 1), ("A3", 2)])
 def test_tables_fill_columns_from_the_top_of_their_pages(paper: str, count: int) -> None:
     first, second, *rest = pages(paper)

@@ -145,6 +145,7 @@ def once(places: Any) -> list[Any]:
     return [at for k, at in enumerate(places) if all(np.abs(at - other).max() > 1e-6 for other in places[:k])]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("follower", "gamma"), [(ROLLER.format(offset=0.0), 60.0), (ROLLER.format(offset=6.0), None), (FLAT, None)]
 )
@@ -236,6 +237,7 @@ def test_an_angle_is_drawn_between_the_tangents_and_the_axis_of_abscissae() -> N
         assert abs(math.tan(arc.sweep)) == pytest.approx(abs(slope), rel=1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("follower", "gamma", "told"),
     [
@@ -296,6 +298,7 @@ def test_words_of_a_joint_diagram_stand_beside_what_they_name(
         assert all(abs(at[k] - at[first]) * drawn.paper.scale < 0.7 for k in others)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("sense", "way"), [("against", 1), ("with", -1)])
 def test_a_swing_is_drawn_about_its_pivot(sense: str, way: int) -> None:
     """Pivot at 90, arm 70: the roller starts 48 from the axis, by the law of cosines, on the side of its sense."""

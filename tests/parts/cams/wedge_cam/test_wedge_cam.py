@@ -60,6 +60,7 @@ def test_the_follower_touches_all_the_way(name: str) -> None:
         assert np.abs(gap - abs(cam.radius - offset)).max() < 1e-9
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["roller", "trailing", "leading"])
 def test_the_profile_is_the_general_envelope_of_a_translation(name: str) -> None:
     """The plate slides, the roller's circle is carried by the follower: Savvin's condition finds the contact."""
