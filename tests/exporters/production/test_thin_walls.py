@@ -121,7 +121,9 @@ BEVEL = {"kind": "bevel_gear", "number_of_teeth": 12, "mate_number_of_teeth": 24
 FACE = {"kind": "face_gear", "number_of_teeth": 40, "pinion_number_of_teeth": 20}
 
 
-@pytest.mark.parametrize(("form", "keys"), [("stl", BEVEL), ("3mf", BEVEL), ("stl", FACE)])
+@pytest.mark.parametrize(
+    ("form", "keys"), [pytest.param("stl", BEVEL, marks=pytest.mark.heavy), ("3mf", BEVEL), ("stl", FACE)]
+)
 def test_what_is_offered_for_too_many_triangles_of_bent_faces_is_made(
     form: str, keys: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
