@@ -1036,6 +1036,12 @@ def test_what_the_strength_of_a_worm_wheel_takes_is_not_taken_in_vain(typed: tup
         calculate("worm", ("module=4", "number_of_teeth=40", *typed), "text", None)
 
 
+@pytest.mark.parametrize(("topic", "size"), [("spline", "d-6x23x26"), ("involute-spline", "45x2")])
+def test_the_share_of_the_sides_of_a_spline_is_not_taken_without_a_torque(topic: str, size: str) -> None:
+    with pytest.raises(SceneError, match=rf"{topic}.load_share = 0.5: needs torque too"):
+        calculate(topic, (f"size={size}", "length=30", "load_share=0.5"), "text", None)
+
+
 def test_a_worm_is_told_by_its_lead_angle_as_in_scenes(capsys: pytest.CaptureFixture[str]) -> None:
     lead = math.degrees(math.atan2(2, 8))
     words = "worm module=2 number_of_starts=2 number_of_teeth=30"

@@ -331,8 +331,13 @@ def test_the_section_goes_through_the_axes_of_gears_not_through_that_of_a_key(tm
         assert (sorted(found[0]), sorted(found[90])) == (pytest.approx([120.0, 246.0]), pytest.approx([89.0, 186.0]))
 
 
-@pytest.mark.parametrize(("scale", "offered"), [("1:1", "2:1"), ("100:1", "20:1")])
-def test_a_scale_at_which_words_find_no_room_is_told_with_one_at_which_they_do(scale: str, offered: str) -> None:
+@pytest.mark.parametrize(
+    ("scale", "offered", "side", "code"),
+    [("1:1", "2:1", "at_least", "fits_no_scale_so_small"), ("100:1", "20:1", "at_most", "fits_no_paper_so_large")],
+)
+def test_a_scale_at_which_words_find_no_room_is_told_with_one_at_which_they_do(
+    scale: str, offered: str, side: str, code: str
+) -> None:
     """Words do not shrink: at 2:1 they stand about the roller, at 1:1 they meet. Before: a traceback."""
     roller = {
         "kind": "roller", "diameter": 16.48, "hub": {"diameter": 14.0, "below": 1.9, "above": 0.9},
@@ -340,6 +345,8 @@ def test_a_scale_at_which_words_find_no_room_is_told_with_one_at_which_they_do(s
     }  # fmt: skip
     export = {"format": "svg", "purpose": "assembly"}
     found = refused({"roller": roller}, exports=[export | {"scale": scale}])
-    assert (found.key, found.nearest and found.nearest.value) == ("exports[1].scale", offered)
+    assert found.nearest is not None
+    told = found.key, found.code, found.nearest.value, found.nearest.side
+    assert told == ("exports[1].scale", code, offered, side)
     raw = {"parts": {"roller": roller}, "exports": [export | {"scale": offered}]}
     assert plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets

@@ -183,6 +183,9 @@ def test_marks_stand_over_or_under_their_letters() -> None:
             body = np.concatenate(own).imag
             assert np.ptp(np.concatenate([*own, marks]).imag) <= 20.0 - 4.0
             assert marks.imag.min() > body.max() + 0.5 if over else marks.imag.min() < body.min() - 1.0
+    # a mark stands in the place of a dot
+    for marked in ("í", "î"):
+        assert len(lettered((marked,), 6.0)) == len(lettered(("i",), 6.0)) == 2
     assert lettered(("о\u0308 Й",), 6.0) == lettered(("o\u0308 И\u0306",), 6.0)
     assert unknown_letters("Öl ų ḱ x⃗") == "\u20d7"
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import mpmath
@@ -12,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geometry.base.errors import CuspError
+from geometry.base.record import replace
 from geometry.curves.curve import Curve
 from geometry.curves.cycloid import (
     CycloidParallel,
@@ -75,6 +77,17 @@ def test_points_and_derivatives_against_fifty_digits(curve: Any) -> None:
         assert abs(complex(curve.tangent(t)) - complex(first / abs(first))) <= 1e-12
         bend = float((MP.conj(first) * second).imag / abs(first) ** 3)
         assert float(curve.curvature(t)) == pytest.approx(bend, rel=1e-10, abs=1e-12)
+
+
+def test_beyond_a_cusp_the_tangent_points_where_the_parallel_runs() -> None:
+    """Of parallels twice as far off as the path is bent: they run back as fast as the path goes on."""
+    for curve, t in ((EXAMPLES["disc"], 0.02), (EXAMPLES["two lobes"], 0.3)):
+        assert isinstance(curve, ShortTrochoid)
+        back = replace(curve, distance=2 / float(curve.path_curvature(t)))
+        point = exact(back)
+        first = complex(MP.diff(point, MP.mpf(t), 1))
+        assert complex(back.tangent(t)) == pytest.approx(first / abs(first), abs=1e-9)
+        assert (first / complex(MP.diff(partial(pin_centre, back), MP.mpf(t)))).real == pytest.approx(-1, rel=1e-9)
 
 
 @EVERY

@@ -33,6 +33,10 @@ def test_energy_of_half_a_sine_is_known() -> None:
     assert wheel.swing == pytest.approx(expected, rel=1e-6)
     assert wheel.moment == pytest.approx(expected / (SPEED**2 * 0.05), rel=1e-6)
     assert wheel.gained[-1] == pytest.approx(0, abs=1e-9)
+    # 8 kg at r omega = 2 m/s take 16 J of it in the middle of a way
+    loaded = mertsalov(pumped(8.0), SPEED, 0.05)
+    assert loaded.of_links[[0, 900, 1800, 2700]] == pytest.approx([0, 16, 0, 16], abs=1e-12)
+    assert loaded.of_flywheel == pytest.approx(wheel.gained - 16 * np.sin(ANGLE) ** 2, abs=1e-9)
 
 
 @pytest.mark.sampled(1)

@@ -336,3 +336,14 @@ def test_a_layer_has_one_colour_in_both_formats_and_a_width_of_the_standard(laye
             assert 2 + len(dots) <= sum(dots) + sum(gaps) <= 4 + len(dots)
         else:
             assert (2 <= dash <= 8, 1 <= gap <= 2) == (True, True)
+
+
+def test_squares_are_whole_about_what_is_left_out_at_their_right_side() -> None:
+    """Of 8 by 8 squares 2 by 2 beside the right end, two above the lowest: three lines end at them, none beside."""
+    canvas = Canvas(0.0, 0.0, "")
+    canvas.squares(Box(0.0, 0.0, 20.0, 20.0), Box(15.0, 5.0, 20.0, 10.0))
+    lines = [(complex(s.curve.start), complex(s.curve.end)) for s in canvas.strokes if isinstance(s.curve, Line)]
+    upright = [(k * 2.5 + 0j, k * 2.5 + 20j) for k in range(7)]
+    parted = [(x + low, x + high) for x in (17.5, 20.0) for low, high in ((0j, 5j), (10j, 20j))]
+    level = [(k * 2.5j, k * 2.5j + (15 if k == 3 else 20)) for k in range(9)]
+    assert lines == [*upright, *parted, *level]

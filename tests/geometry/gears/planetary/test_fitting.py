@@ -97,6 +97,20 @@ def test_sets_of_many_teeth_need_no_shifts(teeth: tuple[int, int, int]) -> None:
     assert 2 * math.hypot(z3 * base, end) < root_form_diameter(ring)
 
 
+@pytest.mark.parametrize(
+    ("teeth", "shifts"), [((20, 29, 11, 38), (0.0, 0.0, 1.0, -1.0)), ((18, 23, 11, 30), (0.0, 0.0, 1.0, -1.0))]
+)
+def test_each_rim_of_double_satellites_has_a_shift_of_its_own(
+    teeth: tuple[int, ...], shifts: tuple[float, ...]
+) -> None:
+    """11 teeth are not undercut from x = 1 - 11 sin(20 deg)^2 / 2 on, the other rim needs none."""
+    z1, z2, z2p, z3 = teeth
+    fit = Fitting(RACK, Requirements(0.25, 1.1), Fraction(1, 3)).fit(PlanetarySet(SCHEMES["david"], (z1, z2, z2p, z3)))
+    assert fit is not None
+    least = 1 - 11 * math.sin(math.radians(20)) ** 2 / 2
+    assert fit.shifts == pytest.approx([share * least for share in shifts], abs=1e-4)
+
+
 def test_shifts_are_told_to_rounding_and_none_at_the_reference_distance() -> None:
     """By 50 digits; before: 2.7e-15 of wheels 18, 18, 54 at 25 degrees, which their names had in notes and pictures."""
     mp = mpmath.mp.clone()

@@ -114,6 +114,9 @@ def test_dimensions_without_shift_and_thinning() -> None:
     assert gear.base_radius == pytest.approx(60 * math.cos(ALPHA), rel=1e-15)
     assert 2 * gear.tip_radius == 117
     assert 2 * replace(gear, plain_tip=True).tip_radius == 116
+    # k_2 = 0.25 - 0.125 x_2: 0.15 of a shift of 0.8, none from 2 on
+    for shift, tip in ((0.8, 120 - 4 * (1 - 0.8 - 0.15)), (2.4, 120 - 4 * (1 - 2.4))):
+        assert 2 * replace(gear, profile_shift_coefficient=shift).tip_radius == pytest.approx(tip, rel=1e-12)
     assert 2 * gear.root_radius == pytest.approx(125, rel=1e-14)
     assert gear.reference_thickness == pytest.approx(math.pi, rel=1e-14)
 

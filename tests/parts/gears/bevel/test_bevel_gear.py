@@ -175,6 +175,10 @@ def test_what_stands_by_hand_is_held_against_its_mates() -> None:
     pitch = 360 / 18
     assert broken(rotation_deg=math.degrees(side.rotation) + pitch) == []
     assert broken(rotation_deg=math.degrees(side.rotation) + pitch / 3) == ["phase"]
+    # half of the backlash of 0.2 mm to either side, on the base circle of the outer end
+    play = math.degrees(0.1 / (18 * math.cos(math.radians(20))))
+    assert broken(rotation_deg=math.degrees(side.rotation) + 0.9 * play) == []
+    assert broken(rotation_deg=math.degrees(side.rotation) - 1.15 * play) == ["phase"]
     x, y, z = side.at
     assert broken(at=[x, y, z + 0.01]) == ["apex_distance"]
     assert "shaft_angle" in broken(axis=[0.01, 0.0, -1.0])
