@@ -216,6 +216,15 @@ def test_narrow_faces_are_in_contact_for_their_contact_ratio() -> None:
     assert wide.contact_ratio == pytest.approx(wide.path_contact_ratio, rel=1e-12)
 
 
+def test_the_contact_ratio_is_that_of_the_flanks_that_faces_beside_the_line_of_centres_use_less() -> None:
+    """As above: of the first a tenth of the face lies below it."""
+    m, teeth, helices, shifts, _ = KHK
+    pair = crossed_pair(replace(_bare((m, teeth, helices, shifts, (4.0, 20.0))), feet=(0.4, 10.0)))
+    shares = [sum(abs(gap) < 1e-7 for gap in gaps) / len(gaps) for gaps in crossed_contact(pair).side_gaps]
+    assert max(shares) > 0.9
+    assert min(shares) == pytest.approx(pair.contact_ratio, abs=1.01 / 24)
+
+
 def test_what_cannot_be_is_refused_with_what_works() -> None:
     bare = _bare(KHK)
     own = crossed_pair(bare)
