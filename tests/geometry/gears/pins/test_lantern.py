@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from geometry.base.errors import OffsetError, ParameterError, PointedTipError
 from geometry.base.record import replace
-from geometry.gears.pins.contact import LanternMotion, pin_contact
+from geometry.gears.pins.contact import DiscMotion, LanternMotion, pin_contact
+from geometry.gears.pins.cycloidal import CycloidalDisc
 from geometry.gears.pins.lantern import (
     LanternGear,
     checked_lantern_gear,
@@ -45,6 +46,19 @@ EVERY = pytest.mark.parametrize("gear", GEARS.values(), ids=GEARS.keys())
 def contact(gear: LanternGear, turn: float = 0.0, shift: float = 0.0, cut: LanternGear | None = None):
     """The contact of a lantern's pins with its gear, or with another one."""
     return pin_contact(lantern_side(cut or gear), LanternMotion(gear, turn, shift))
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.4, -1.1])
+def test_a_body_that_is_turned_on_turns_counter_clockwise_and_its_pins_stand(phase: float) -> None:
+    for still, on in (
+        (LanternMotion(GEAR), LanternMotion(GEAR, 0.03)),
+        (DiscMotion(CycloidalDisc(11, 80.0, 8.0, 2.5)), DiscMotion(CycloidalDisc(11, 80.0, 8.0, 2.5), 0.03)),
+    ):
+        pins = [m.placement(phase).apply(m.centre(np.array([phase]))[0][0]) for m in (still, on)]
+        assert pins[1] == pytest.approx(pins[0], abs=1e-12)
+        at, way = ([m.placement(phase).apply(point) for m in (still, on)] for point in (0j, 1 + 0j))
+        assert at[1] == pytest.approx(at[0])
+        assert (way[1] - at[1]) / (way[0] - at[0]) == pytest.approx(cmath.rect(1.0, 0.03), abs=1e-12)
 
 
 @pytest.mark.sampled(1)
