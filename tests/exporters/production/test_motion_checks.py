@@ -78,8 +78,8 @@ def test_what_lies_near_is_found_by_a_short_search(apart: float, sought: float) 
             return self.solid ^ other
 
     solid = manifold3d.Manifold.cube((1.0, 1.0, 1.0))
-    one, two = (SimpleNamespace(slabs=None, reach=2.0, solid=x) for x in (Cube(solid), solid))
-    gap, _ = Meeting((one, two), 0.0, 10.0, sought).meet(complex(1.0 + apart), 0.0)  # type: ignore[arg-type]
+    sides: Any = tuple(SimpleNamespace(slabs=None, reach=2.0, solid=x) for x in (Cube(solid), solid))
+    gap, _ = Meeting(sides, 0.0, 10.0, sought).meet(complex(1.0 + apart), 0.0)
     assert gap == pytest.approx(min(max(apart, 0.0), sought), abs=1e-9)
     assert max(lengths) <= max(min(8 * apart, sought), sought / 64)
 

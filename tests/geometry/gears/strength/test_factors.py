@@ -45,7 +45,8 @@ def test_limits_of_two_steels_of_a_report() -> None:
     assert GROUPS["V alloy"].bending["MQ"].at(240) == pytest.approx(290, abs=2)
 
 
-# of each group a hardness, and sigma_Hlim and sigma_Flim there of ML, MQ and ME, MPa, by hand from ISO 6336-5, table 1
+# of each group a hardness, and sigma_Hlim and sigma_Flim there of ML, MQ and ME, MPa, by hand from the lines of
+# ISO 6336-5, table 1, as they are remembered: they hold the sums, not the table
 BORNE = {
     "St": (150, (340.0, 340.0, 478.0), (137.25, 137.25, 204.9)),
     "V": (200, (475.6, 545.0, 599.6), (158.0, 211.0, 258.6)),
