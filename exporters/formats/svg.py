@@ -17,7 +17,10 @@ from geometry.plane.contour import Approximation, Contour, edge_points
 
 STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
 # of parts in pictures that name no colour
-_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
+_FILLS = (
+    *("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6", "#a4d4d4"),
+    *("#e6b58f", "#d3d67f", "#e3b3dd", "#8fb0e0", "#b9a48f", "#8fc795"),
+)
 # of outlines that are pictures alone
 _PICTURE_DECIMALS = 6
 # of numbers that are rounded already

@@ -52,11 +52,12 @@ class Label(Record):
 
     @property
     def line(self) -> tuple[complex, complex] | None:
-        """From the side of its box that is nearer to what it names."""
+        """From the side of its box that is nearer to what it names; none where it stands on the end of it."""
         if self.leads is None:
             return None
         left, top, right, low = self.box
-        return complex(min(max(self.leads.real, left), right), min(max(self.leads.imag, top), low)), self.leads
+        start = complex(min(max(self.leads.real, left), right), min(max(self.leads.imag, top), low))
+        return None if start == self.leads else (start, self.leads)
 
 
 class Tops:
@@ -209,25 +210,23 @@ def _led(label: Label, number: int, tops: Tops, made: Sequence[Label]) -> Label 
     least, found = math.inf, None
     for spot, size in product(tops.spots(number), (label.size, _SMALL * label.size)):
         for place in _around(replace(label, x=spot.real, y=spot.imag, size=size, leads=spot), tops, taken):
-            line = place.line
-            assert line
+            line = place.line or (spot, spot)
             # what is as long at full size is not written smaller
             length = abs(line[1] - line[0]) / size
             if (
                 length < least
                 and (length := length + _EDGE * tops.edges(line)) < least
-                and (length := length + _CROSSING * _crossed(place, taken, lines)) < least
+                and (length := length + _CROSSING * _crossed(place, line, taken, lines)) < least
             ):
                 least, found = length, place
     return found
 
 
-def _crossed(label: Label, taken: Real, lines: Sequence[tuple[complex, complex]]) -> int:
+def _crossed(label: Label, way: tuple[complex, complex], taken: Real, lines: Sequence[tuple[complex, complex]]) -> int:
     """How many words the line of one runs through, and how many lines it, or the word, crosses."""
-    assert label.line
     own = np.array([label.box])
-    through = int(_runs(*label.line, taken).sum()) + sum(int(_runs(*line, own).sum()) for line in lines)
-    return through + sum(lines_cross(*label.line, *line) for line in lines)
+    through = int(_runs(*way, taken).sum()) + sum(int(_runs(*line, own).sum()) for line in lines)
+    return through + sum(lines_cross(*way, *line) for line in lines)
 
 
 def _runs(start: complex, end: complex, boxes: Real) -> Flags:

@@ -334,3 +334,18 @@ def test_a_word_wider_than_its_part_stands_above_or_below_it_in_a_row() -> None:
     assert tops.shows(Label(word.text, 50.0, -4.0, 11.0), 0) == tops.shows(Label(word.text, 50.0, -4.0, 11.0), 1) == 0
     named = spread_labels([Label(f"as wide as two {k}", 20.0 + 60 * k, 24.0, 11.0) for k in range(3)], tops)
     assert [one is not None and one.leads is None and one.x for one in named] == [20.0, 80.0, 140.0]
+
+
+def test_what_is_told_no_colour_has_one_of_its_own(tmp_path: Path) -> None:
+    """Eight parts, as a lesson's model has them: five colours came again from the sixth part on."""
+    scene = tmp_path / "pile.toml"
+    scene.write_text(f'{PARTS}[[exports]]\nformat = "svg"\n', encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) in (0, 1)
+    picture = (tmp_path / "pile" / "pile.preview.svg").read_text(encoding="utf-8")
+    assert len(set(re.findall(r"fill:(#\w+);fill-opacity", picture))) == 8
+
+
+def test_a_word_that_covers_the_end_of_its_line_has_none() -> None:
+    """A small word on a corner of its part: it stands on what it names, and a dot stood within the word."""
+    assert Label("Base", 10.0, 10.0, 4.0, leads=9.0 + 9.0j).line is None
+    assert Label("Base", 10.0, 10.0, 4.0, leads=9.0 + 19.0j).line == (9.0 + 10.6j, 9.0 + 19.0j)
