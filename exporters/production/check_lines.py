@@ -107,7 +107,7 @@ def check_lines(
             gap = told.text("least gap {gap:.2g} mm", gap=_seen(mate["gap"]))
             text += f": {told.text(VERDICTS[mate['verdict']])}, {gap}"
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
-                text += f"; {told.text('the teeth part on their way')}"
+                text += f"; {told.text('both part on their way')}"
         if "walls" in mate:
             walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
             text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"

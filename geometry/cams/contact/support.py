@@ -39,10 +39,13 @@ def _of_curve(curve: Curve, direction: Complex) -> tuple[Real, Complex]:
         t = np.linspace(*curve.domain, _SAMPLES)
         heights = (np.conj(direction)[:, None] * curve.point(t)).real
         at = np.argmax(heights, axis=1)
-        parameter = t[at]
+        tried = [t[at]]
         if not isinstance(curve, Line):
-            parameter = _climbed(curve, direction, t, at)
-        points = np.stack([curve.point(parameter), curve.point(t[at])])
+            # a curve that closes goes on before its first place and after its last one
+            last = len(t) - 1
+            beyond = np.where(at == 0, last, np.where(at == last, 0, at))
+            tried += [_climbed(curve, direction, t, beside) for beside in (at, beyond)]
+        points = np.stack([curve.point(parameter) for parameter in tried])
     heights = (np.conj(direction) * points).real
     chosen = np.argmax(heights, axis=0)
     lanes = np.arange(len(direction))

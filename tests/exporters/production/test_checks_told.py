@@ -36,8 +36,8 @@ def test_a_pair_of_gears_is_told_by_its_numbers() -> None:
     assert ", total 2.1000" in one(mates=[PAIR | {"total_contact_ratio": 2.1}])
     assert "least gap -2e-09 mm" in one(mates=[PAIR | {"gap": -2e-9}])
     clear = PAIR | {"verdict": "clear", "gap": 1e-8}
-    assert "the teeth part on their way" in one(mates=[clear])
-    assert "the teeth part on their way" not in one(mates=[clear | {"gap": 2e-8}])
+    assert "both part on their way" in one(mates=[clear])
+    assert "both part on their way" not in one(mates=[clear | {"gap": 2e-8}])
     walls = {"inner": [0.0, 0.01], "outer": [0.05, 0.2]}
     line = one(mates=[PAIR | {"walls": walls, "roller_clearance": 0.2}])
     assert "inner wall 0 to 0.01 mm, at the outer wall 0.05 to 0.2 mm, clearance 0.2 mm" in line

@@ -10,6 +10,8 @@ import pytest
 from geometry.base.record import replace
 from geometry.cams.contact.positive import second_centres
 from geometry.cams.contact.support import support
+from geometry.cams.motion.follower_motion import motion_of_table
+from geometry.cams.plane.disk import FollowerKind, translating_cam
 from geometry.cams.plane.positive import conjugate_cam
 from geometry.cams.plane.shape import cam_shape
 from geometry.curves.line_arc import Arc, Line
@@ -52,6 +54,16 @@ def test_a_cam_reaches_to_the_highest_of_dense_samples(name: str) -> None:
     assert height == pytest.approx(heights.max(axis=1), abs=1e-4)
     assert (point * np.conj(DIRECTIONS)).real == pytest.approx(height, rel=1e-14)
     assert np.abs(point - points[heights.argmax(axis=1)]).max() < 0.3
+
+
+def test_a_cam_of_one_curve_reaches_as_far_on_both_sides_of_its_start() -> None:
+    """A measured motion that runs through its start: just beside it the face stood 0.023 mm off the cam."""
+    motion = motion_of_table(np.radians([0, 60, 150, 240]), [0.0, 3.0, 4.0, -1.0])
+    assert abs(float(motion.value(0.0, 1))) > 1
+    angles = np.radians(np.linspace(-6, 6, 25))
+    cam = translating_cam(motion, FollowerKind.FLAT, 30.0)
+    height, point = support(cam_shape(cam).profile, 1j * np.exp(-1j * angles))
+    assert height == pytest.approx(30 + motion.value(np.mod(angles, 2 * math.pi)), abs=1e-12)
 
 
 @pytest.mark.parametrize("sense", ["above", "below"])
