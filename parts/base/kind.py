@@ -114,6 +114,13 @@ class Kind(Generic[K, T]):
         """
         raise NotImplementedError
 
+    def idle(self, keys: K, others: Others) -> Iterable[tuple[Sequence[str], str]]:
+        """Keys that do nothing beside these, and what they would act with: sizes of a tail, and its length.
+
+        Others are refused to set them; what a part has of them from ``[defaults]`` is passed over.
+        """
+        return ()
+
     def gathered(self, keys: K, folder: Path) -> K:
         """The keys with what they need of files; ``folder``: that of the scene's file."""
         return keys

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial, wraps
 from typing import TYPE_CHECKING, Annotated, Literal, ParamSpec, TypeVar
 
@@ -123,9 +123,16 @@ def helix_quantities(keys: ToothedKeys, reference_radius: float) -> dict[str, fl
     return {"normal_pitch": math.pi * keys.module, "lead": helix.lead(reference_radius)}
 
 
-def hand_finding(keys: ToothedKeys) -> tuple[Finding, ...]:
+def idle_findings(keys: ToothedKeys, thinning: float) -> Iterator[Finding]:
+    """The remarks that straight teeth have no hand, and that nothing is cut deeper where nothing is thinned, mm."""
+    yield from hand_finding(keys.hand, not keys.helix_angle_deg)
+    if getattr(keys, "thinning_method", "") == "deeper_cut" and not thinning:
+        yield Finding("deeper_cut_of_nothing", 0.0, 0.0)
+
+
+def hand_finding(hand: Hand, straight: bool) -> tuple[Finding, ...]:
     """The remark that straight teeth have no hand."""
-    return (Finding("hand_of_straight_teeth", 0.0, 0.0),) if keys.hand != "right" and not keys.helix_angle_deg else ()
+    return (Finding("hand_of_straight_teeth", 0.0, 0.0),) if hand != "right" and straight else ()
 
 
 def section_finding(keys: ToothedKeys) -> tuple[Finding, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -97,12 +98,17 @@ class PawlKind(Extruded[PawlSpec, Pawl]):
 
     name, keys, made_from = "pawl", PawlSpec, _WHEEL
 
+    def idle(self, keys: PawlSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
+        """Sizes of a tail that is not there."""
+        if not keys.tail_length:
+            yield ("tail_angle_deg", "tail_width"), "tail_length"
+
     def thing(self, keys: PawlSpec, others: Others) -> Pawl:
         """The pawl of another part's wheel, checked to have an outline that keeps off its teeth."""
         from geometry.gears.ratchets.pawl import checked_pawl
 
-        if not keys.tail_length:
-            check_not_in_vain(keys, ("tail_angle_deg", "tail_width"), "tail_length")
+        for names, other in self.idle(keys, others):
+            check_not_in_vain(keys, names, other)
         owner = owner_of(keys.of, others, RatchetWheelSpec)
         wheel = RATCHET_WHEEL.thing(owner, others)
         try:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from typing import Any
 
 from msgspec import Struct
 
+from geometry.base.errors import ParameterError
+from parts.base.part_keys import MaterialKeys
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
+from parts.base.schema import converted
 from parts.keys.boards import BedSpec, BoardSpec
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
@@ -68,6 +72,9 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
             tables[name] = [filled(name, f"{name}[{k}]", table) for k, table in enumerate(raw[name], 1)]
         else:
             tables[name] = {key: filled(name, f"{name}.{key}", table) for key, table in raw[name].items()}
+    for part, key in _idle(tables.get("parts", {}), source):
+        if origins.pop(f"parts.{part}.{key}", None):
+            del tables["parts"][part][key]
     for key, value in raw["defaults"].items():
         if key in _OWN:
             raise SceneError(source, f"defaults.{key}", value, "not_one_for_all")
@@ -78,6 +85,19 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
                 source, f"defaults.{key}", value, "nothing_takes_it", meant(key, others), known=sorted(others)
             )
     return tables, origins
+
+
+def _idle(parts: Mapping[str, Table], source: str) -> Iterator[tuple[str, str]]:
+    """Parts, and keys that do nothing beside their other ones; of parts that are wrong the loader tells."""
+    specs: dict[str, MaterialKeys] = {}
+    for part, table in parts.items():
+        if keys := _keys_of("parts", table, MaterialKeys):
+            with suppress(SceneError):
+                specs[part] = converted(table, keys, source, part)
+    for part, spec in specs.items():
+        with suppress(ParameterError):
+            for names, _ in KINDS[parts[part]["kind"]].idle(spec, specs):
+                yield from ((part, name) for name in names)
 
 
 def as_thick_as_board(raw: Table) -> tuple[Table, dict[str, str]]:

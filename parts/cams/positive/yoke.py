@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
@@ -179,6 +180,15 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
     name, keys, made_from = "yoke_frame", YokeFrameSpec, EVEN_CAM
     drawing = "parts.cams.drawings"
 
+    def idle(self, keys: YokeFrameSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
+        """Sizes of a stem that is not there, or of what a frame of the other follower has."""
+        if owner_of(keys.of, others, CamSpec).follower == "flat":
+            yield ("pin_diameter", "shaft_diameter"), 'follower = "roller"'
+        else:
+            yield ("side_clearance",), 'follower = "flat"'
+        if not (keys.stem_above or keys.stem_below):
+            yield ("stem_width",), "stem_above"
+
     def thing(self, keys: YokeFrameSpec, others: Others) -> YokeFrame:
         """The frame of another part's cam, which must be of constant breadth; its sizes fit."""
         from geometry.cams.plane.positive import yoke_breadth
@@ -186,9 +196,8 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
 
         owner = owner_of(keys.of, others, CamSpec)
         cam = CAM.thing(owner, others)
-        of_rollers, of_flats = ("pin_diameter", "shaft_diameter"), ("side_clearance",)
-        ours, other = (of_rollers, "roller") if cam.is_flat else (of_flats, "flat")
-        check_not_in_vain(keys, ours, f'follower = "{other}"')
+        for names, other in self.idle(keys, others):
+            check_not_in_vain(keys, names, other)
         try:
             breadth = yoke_breadth(cam)
         except ParameterError as refusal:

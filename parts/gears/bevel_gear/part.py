@@ -18,7 +18,7 @@ from parts.base.part_keys import MaterialKeys
 from parts.base.refusal import REMOVED
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
-from parts.keys.helix import told_in_keys
+from parts.keys.helix import hand_finding, told_in_keys
 from parts.keys.holes import BoreTable, HolesTable, check_holes, check_shape, holes_of, wide_bore
 
 if TYPE_CHECKING:
@@ -250,7 +250,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
             "mounting_distance": thing.mounting_distance,
             "tip_circle_to_apex": thing.outer(thing.tip_angle).imag,
         }
-        return Report(tuple(bevel_findings(thing)), circles, quantities)
+        return Report((*hand_finding(keys.hand, thing.is_straight), *bevel_findings(thing)), circles, quantities)
 
 
 BEVEL_GEAR = BevelGearKind()

@@ -106,7 +106,7 @@ class RackKind(Kind[RackSpec, "Rack"]):
             "tip_tooth_thickness": thing.tip_thickness,
             **({"normal_pitch": math.pi * keys.module} if keys.helix_angle_deg else {}),
         }
-        found = (*rounding_finding(keys), *hand_finding(keys))
+        found = (*rounding_finding(keys), *hand_finding(keys.hand, not keys.helix_angle_deg))
         return Report(found, quantities=quantities, flat_findings=section_finding(keys))
 
 

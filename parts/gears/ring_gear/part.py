@@ -17,8 +17,8 @@ from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
-    hand_finding,
     helix_of,
+    idle_findings,
     section_finding,
     told_in_keys,
 )
@@ -229,7 +229,12 @@ class RingGearKind(ToothedKind[RingGearSpec, "RingGear"]):
         quantities = {**tooth_quantities(keys, thing, tip_thickness(thing)), **_cutter_quantities(keys, thing)}
         tip = tip_finding(thing, keys.module)
         chamfer = chamfer_finding(keys.face_chamfer, keys.tip_rounding)
-        found = (*(() if tip is None else (tip,)), *hand_finding(keys), *chamfer, *findings(thing))
+        found = (
+            *(() if tip is None else (tip,)),
+            *idle_findings(keys, thing.circumferential_thinning),
+            *chamfer,
+            *findings(thing),
+        )
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
 

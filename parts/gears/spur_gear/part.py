@@ -39,8 +39,8 @@ from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
     ToothedKeys,
     checked_teeth,
-    hand_finding,
     helix_of,
+    idle_findings,
     section_finding,
     told_in_keys,
 )
@@ -208,7 +208,12 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
         """Diameters and thicknesses, what is poor."""
         helix = math.radians(keys.helix_angle_deg)
         chamfer = chamfer_finding(keys.face_chamfer, keys.tip_rounding)
-        found = (*rack_findings(keys, thing), *hand_finding(keys), *chamfer, *findings(thing, helix))
+        found = (
+            *rack_findings(keys, thing),
+            *idle_findings(keys, thing.circumferential_thinning),
+            *chamfer,
+            *findings(thing, helix),
+        )
         quantities = tooth_quantities(keys, thing, tip_thickness(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 

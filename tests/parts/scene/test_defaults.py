@@ -148,3 +148,49 @@ def test_a_key_that_no_export_takes_is_not_offered_itself() -> None:
         scene_from_toml(text.encode(), "s", "s")
     assert refused.value.key == "defaults.kerf"
     assert "kerf" not in str(refused.value).partition("= 0.2")[2]
+
+
+# what a default does nothing for: a stem that is not there, pins of a flat cam's frame
+IDLE = """
+[defaults]
+stem_width = 8.0
+pin_diameter = 5.0
+[parts.tappet]
+kind = "follower"
+end = "roller"
+[parts.cam]
+kind = "cam"
+base_circle_radius = 60.0
+follower = "flat"
+lift = 10.0
+phases = [
+    { move = "rise", angle_deg = 90.0, law = "sine" }, { move = "dwell", angle_deg = 90.0 },
+    { move = "return", angle_deg = 90.0, law = "sine" }, { move = "dwell", angle_deg = 90.0 },
+]
+[parts.stemless]
+kind = "yoke_frame"
+of = "cam"
+stem_above = 0.0
+[parts.frame]
+kind = "yoke_frame"
+of = "cam"
+[[exports]]
+format = "svg"
+"""
+
+
+def test_what_would_do_nothing_is_passed_over(tmp_path: Path) -> None:
+    file, plain = tmp_path / "s.toml", tmp_path / "plain.toml"
+    file.write_text(IDLE, encoding="utf-8")
+    scene = load_scene(str(file))
+    told = {(part, key) for part, keys in resolved(scene)["parts"].items() for key, value in keys.items()
+            if value == {"stem_width": 8.0, "pin_diameter": 5.0}.get(key, "")}  # fmt: skip
+    assert told == {("tappet", "stem_width"), ("tappet", "pin_diameter"), ("frame", "stem_width")}
+    assert set(plan_build(scene, str(file), [], []).parts) == set(scene.parts)
+    assert main(["new", str(file), "--expand", "--out", str(plain)]) == 0
+    assert resolved(load_scene(str(plain)))["parts"] == resolved(scene)["parts"]
+    # what a part says itself is refused
+    file.write_text(IDLE.replace("stem_above", "stem_width = 8.0\nstem_above"), encoding="utf-8")
+    with pytest.raises(SceneError) as refused:
+        plan_build(load_scene(str(file)), str(file), [], [])
+    assert (refused.value.key, refused.value.code) == ("parts.stemless.stem_width", "needs_other")

@@ -89,6 +89,7 @@ WRONG: dict[str, tuple[Keys, Keys, str, str]] = {
     # before: without effect
     "pins of faces": (FLAT, {"pin_diameter": 5.0}, "pin_diameter", "needs_other"),
     "side of rollers": (ROLLERS, {"side_clearance": 3.0}, "side_clearance", "needs_other"),
+    "no stem": (ROLLERS, {"stem_width": 40.0, "stem_above": 0.0}, "stem_width", "needs_other"),
 }  # fmt: skip
 
 
@@ -119,7 +120,7 @@ SMALL: Keys = ROLLERS | {"base_circle_radius": 4.0, "lift": 2.0, "follower_radiu
         (FLAT | {"base_circle_radius": 4.0, "lift": 0.5, "follower_offset": 1.5, "bore_diameter": 2.0}, {"wall": 1.0}),
         (ROLLERS, {"corner_radius": 12.0}),
         # what is not there needs no room
-        (ROLLERS, {"wall": 0.1, "stem_width": 40.0, "stem_above": 0.0}),
+        (ROLLERS, {"wall": 0.1, "stem_above": 0.0}),
     ],
 )  # fmt: skip
 def test_sizes_that_are_left_out_suit_any_frame(cam: Keys, keys: Keys) -> None:
