@@ -5,15 +5,19 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour, edge_points
+
+if TYPE_CHECKING:
+    from parts.base.part import Part
 
 STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
 # of parts in pictures that name no colour
@@ -39,9 +43,9 @@ _LONG_BULGE = float(np.tan(np.radians(25)))
 _CHORDS, _FOLLOWED = 12, 0.002
 
 
-def fill(index: int) -> str:
-    """The colour of what names none."""
-    return _FILLS[index % len(_FILLS)]
+def fills(parts: Mapping[str, Part]) -> dict[str, str]:
+    """The colour of each part in every picture; what names none has one by its place in the scene."""
+    return {name: part.colour or _FILLS[index % len(_FILLS)] for index, (name, part) in enumerate(parts.items())}
 
 
 def write_laser_svg(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.svg import escaped, fill, save
+from exporters.formats.svg import escaped, fills, save
 from exporters.production.plan import Plan
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
@@ -171,7 +171,8 @@ def _drawn(
     scale: float,
 ) -> Iterator[str]:  # fmt: skip
     """Each drawing once, and every instance by it."""
-    colours = [parts[part].colour or fill(k) for k, (part, _) in enumerate(drawings)]
+    own = fills(parts)
+    colours = [own[part] for part, _ in drawings]
     shades = dict.fromkeys(colours)
     yield "<defs>"
     for number, colour in enumerate(shades):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.svg import GROUND, escaped, fill, page_head, path_data, save, stroke_data
+from exporters.formats.svg import GROUND, escaped, fills, page_head, path_data, save, stroke_data
 from exporters.production.boards import BoardJob
 from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.plan import Plan
@@ -45,19 +45,19 @@ class _Drawn(Record):
 
 def laid_previews(plan: Plan, folder: Path) -> list[Path]:
     """A picture of each board and plate, once, whatever the formats of its files."""
-    fills = {name: part.colour or fill(k) for k, (name, part) in enumerate(plan.parts.items())}
+    colours = fills(plan.parts)
     title = plan.scene.scene.title or plan.scene.name
     return [
-        _preview(jobs[0], title, fills, folder / f"{name}.preview.svg", words(plan.scene.scene.language))
+        _preview(jobs[0], title, colours, folder / f"{name}.preview.svg", words(plan.scene.scene.language))
         for name, jobs in laid_jobs(plan).items()
     ]
 
 
-def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path, told: Words) -> Path:
+def _preview(job: LaidJob, title: str, colours: Mapping[str, str], file: Path, told: Words) -> Path:
     width, across, third = job.sizes
     size = max(width, across)
     room, line, letters = size * _ROOM, size * _LINE, size * _LETTERS
-    drawn = {m.part.id: _drawn(m.part, job, str(k), fills[m.part.id]) for k, m in enumerate(job.members, 1)}
+    drawn = {m.part.id: _drawn(m.part, job, str(k), colours[m.part.id]) for k, m in enumerate(job.members, 1)}
     rows = [(": ".join((*drawn[part].words[1:], row)), drawn[part].fill) for part, row in lying_on(job, told).items()]
     title += told.decimal(f": {width:g} × {across:g} × {third:g}")
     title += f", {job.times} ×" if job.times > 1 else ""

@@ -13,7 +13,7 @@ import numpy as np
 from exporters.formats.motion_svg import CORNERS, Track, even_way, write_motion_svg
 from exporters.formats.read_motion import ReadTrack, read_motion
 from exporters.formats.readback import Loop
-from exporters.formats.svg import fill
+from exporters.formats.svg import fills
 from exporters.production.film import SHARE, TIMES, Film
 from exporters.production.flat_pins import solid_pins
 from exporters.production.jobs import Made
@@ -150,11 +150,12 @@ class MotionJob(Film, dict=True):
             look: tuple(approximate_profile(p, SHARE * self.tolerance, arcs=True) for p in profiles)
             for look, profiles in self._profiles.items()
         }
-        for index, instance in enumerate(self._shown):
+        colours = fills(self.parts)
+        for instance in self._shown:
             part = self.parts[instance.part]
             shares, places, angles, off = self.ways(instance, self._reach(instance))
             ways = even_way(shares, places), even_way(shares, angles + 0j)
-            colour = part.colour or fill(index)
+            colour = colours[part.id]
             if instance.id in self._changing:
                 forms, beside = self._forms(instance)
                 worst = max(worst, off + beside)

@@ -10,7 +10,7 @@ import numpy as np
 from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.motion_svg import even_way
 from exporters.formats.read_glb import read_glb
-from exporters.formats.svg import fill
+from exporters.formats.svg import fills
 from exporters.production.film import MOST_VALUES, SHARE, TIMES, Film
 from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
@@ -93,9 +93,8 @@ class SolidFilm(Film):
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""
-        solids = {
-            m.part.id: (body_mesh(m.body, m.chords(made)), m.part.colour or fill(k)) for k, m in enumerate(self.members)
-        }
+        colours = fills(self.parts)
+        solids = {m.part.id: (body_mesh(m.body, m.chords(made)), colours[m.part.id]) for m in self.members}
         write_glb(file, self.title, solids, self.tracks()[0], self.seconds)
         return {"instances": len(self.instances), "triangles": sum(len(m.triangles) for m, _ in solids.values())}
 

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from exporters.formats.svg import GROUND, fill, number, page_head, path_data, save, stroke_data, text_line
+from exporters.formats.svg import GROUND, fills, number, page_head, path_data, save, stroke_data, text_line
 from exporters.production.flat_pins import solid_pins
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
@@ -82,7 +82,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
     data = " ".join(path_data(b.geometry, corner) for b in reversed((*tags, *boundaries)))
-    shade = part.colour or fill(0)
+    shade = fills({part.id: part})[part.id]
     lines.append(
         f'<path d="{data}" style="fill:{shade};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
     )
@@ -146,7 +146,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     corner = complex(middle, middle)
     size = reach / 30
     body: list[str] = []
-    labels, loops = list[Label](), list[list[Complex]]()
+    labels, loops, colours = list[Label](), list[list[Complex]](), fills(plan.parts)
     for index, instance in enumerate(stand):
         place, own = instance.centre + shift, outlines[instance.part]
         placed = [_placed(b.geometry, instance, place) for b in reversed(own)]
@@ -158,7 +158,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         part, flat = plan.parts[instance.part], [b.geometry for b in own] if instance.axis == UPWARDS else []
         pins = [_placed(contour, instance, place) for contour in solid_pins(part, flat)]
         lines_on = _lines_on(part, instance, place, corner)
-        body += _instance(placed, lines_on, pins, part.colour or fill(index), corner, reach)
+        body += _instance(placed, lines_on, pins, colours[instance.part], corner, reach)
         height = _label_height(own, outers[index] - instance.centre)
         if instance.axis != UPWARDS:
             ends = outers[index].real, outers[index].imag

@@ -345,6 +345,20 @@ def test_what_is_told_no_colour_has_one_of_its_own(tmp_path: Path) -> None:
     assert len(set(re.findall(r"fill:(#\w+);fill-opacity", picture))) == 8
 
 
+def test_instances_of_one_part_have_one_colour(tmp_path: Path) -> None:
+    """Twelve like pins of a reducer were of all colours."""
+    scene = tmp_path / "row.toml"
+    pins = "".join(f'[instances.pin_{k}]\npart = "pin"\nat = [{9.0 * k - 40}, 0.0, 0.0]\n' for k in range(7))
+    scene.write_text(
+        '[parts.base]\nkind = "plate"\nwidth = 90.0\nheight = 20.0\n[parts.pin]\nkind = "pin"\ndiameter = 4.0\n'
+        f'length = 5.0\n[instances.base]\n{pins}[[exports]]\nformat = "svg"\n', encoding="utf-8",
+    )  # fmt: skip
+    assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) in (0, 1)
+    picture = (tmp_path / "row" / "row.preview.svg").read_text(encoding="utf-8")
+    colours = re.findall(r"fill:(#\w+);fill-opacity", picture)
+    assert (len(colours), len(set(colours))) == (8, 2)
+
+
 def test_a_word_that_covers_the_end_of_its_line_has_none() -> None:
     """A small word on a corner of its part: it stands on what it names, and a dot stood within the word."""
     assert Label("Base", 10.0, 10.0, 4.0, leads=9.0 + 9.0j).line is None

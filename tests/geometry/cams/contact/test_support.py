@@ -62,7 +62,7 @@ def test_a_cam_of_one_curve_reaches_as_far_on_both_sides_of_its_start() -> None:
     assert abs(float(motion.value(0.0, 1))) > 1
     angles = np.radians(np.linspace(-6, 6, 25))
     cam = translating_cam(motion, FollowerKind.FLAT, 30.0)
-    height, point = support(cam_shape(cam).profile, 1j * np.exp(-1j * angles))
+    height, _ = support(cam_shape(cam).profile, 1j * np.exp(-1j * angles))
     assert height == pytest.approx(30 + motion.value(np.mod(angles, 2 * math.pi)), abs=1e-12)
 
 
