@@ -253,12 +253,17 @@ def _joints(stand: Stand, matings: Sequence[Mating], bodies: Bodies) -> dict[str
             on = carriers[on][0][0] if on in carriers else FRAME
         return on
 
+    def asked(key: str, index: int) -> Revolute:
+        """The axis that a mate puts it on: of ``coaxial`` the first one's, also where it does not stand there."""
+        mating = matings[index]
+        return lines[key] if mating.placed_turn is None else _about(key, stand[mating.first])
+
     for key in stand:
         body = bodies.of(key)
         if body != key:
             joints[key] = Fixed(key, on=body, sense=parallel(stand[key].axis, lines[body].axis) or 1)
         elif key not in joints:
-            found = [(carrier(on, lines[key]), index) for on, index in carriers.get(key, ())]
+            found = [(carrier(on, asked(key, index)), index) for on, index in carriers.get(key, ())]
             joints[key] = replace(lines[key], on=found[0][0] if found else FRAME)
             for on, index in found[1:]:
                 if on != found[0][0]:

@@ -23,7 +23,7 @@ from geometry.base.errors import (
     PointedTipError,
     limit,
 )
-from geometry.base.findings import Finding, short_of
+from geometry.base.findings import Finding, beyond, short_of
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
@@ -278,7 +278,8 @@ def cycloidal_side(gear: CycloidalGear, offset: float = 0.0) -> ToothSide:
         segments.append(Segment(arc, Label.ROOT_FILLET))
     segments.append(Segment(_straight(flank), Label.FLANK))
     tip, findings = _tip(gear, high, begins, offset)
-    return ToothSide((*segments, *tip), gear.pitch_angle, findings)
+    trimmed = beyond("fillet_cusp_trimmed", offset, gear.root_rounding) if offset > 0 else ()
+    return ToothSide((*segments, *tip), gear.pitch_angle, (*trimmed, *findings))
 
 
 def _tip(

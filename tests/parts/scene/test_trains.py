@@ -215,6 +215,22 @@ def test_what_a_cam_moves_is_no_drive(way: str) -> None:
     assert (caught.value.key, caught.value.value, caught.value.code) == ("drives[1].instance", "yoke", "moves_by_law")
 
 
+def test_a_train_that_does_not_come_back_to_its_axis_is_told_by_how_much() -> None:
+    """A dial train of one module: 20 + 60 and 12 + 36 teeth end 32 mm off; a satellite without a carrier was blamed."""
+    parts = "".join(GEAR.format(name, teeth) for name, teeth in zip("abcd", (20, 60, 12, 36), strict=True))
+    meshes = "".join(
+        f'[[mates]]\nkind = "{kind}"\nfirst = "{one}"\nsecond = "{two}"\n{more}'
+        for kind, one, two, more in (
+            ("external_gear_pair", "a", "b", ""), ("fixed", "b", "c", "offset = [0.0, 0.0, 6.0]\n"),
+            ("external_gear_pair", "c", "d", "direction_deg = 180.0\n"), ("coaxial", "a", "d", "height = 6.0\n"),
+        )
+    )  # fmt: skip
+    found = placed(parts + meshes + DRIVE.format("a", "turns = 9.0"))
+    off = found.mates[-1].conditions[0]
+    assert (off.met, off.value) == (False, pytest.approx(32.0))
+    assert found.turns == ({"a": 9.0, "b": -3.0, "c": -3.0, "d": 1.0},)
+
+
 def test_a_train_that_its_mates_lock_cannot_be_driven() -> None:
     """Three external wheels in a triangle: placed by hand so that all mesh, they hold each other."""
     gears = "".join(GEAR.format(name, 20) for name in "abc")

@@ -307,3 +307,13 @@ def test_offsets_end_where_spaces_close_and_teeth_vanish() -> None:
         [],
         ["tip_lost"],
     ]
+
+
+def test_a_mill_that_is_too_thick_for_the_fillet_is_told_of() -> None:
+    """A mill of 0.5 mm in roots rounded by a fifth of a module of 0.6 mm; it was told of spur gears alone."""
+    gear = checked_cycloidal_gear(CycloidalGear(64, 0.6, 1.2, 9.6))
+    assert gear.root_rounding == pytest.approx(0.12)
+    assert cycloidal_side(gear, 0.12).findings == ()
+    (told,) = cycloidal_side(gear, 0.25).findings
+    assert (told.code, told.value, told.limit) == ("fillet_cusp_trimmed", 0.25, pytest.approx(0.12))
+    assert cycloidal_side(replace(gear, given_root_rounding=0.25), 0.25).findings == ()
