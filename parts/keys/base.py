@@ -5,7 +5,7 @@ The annotations are the schema: validation, error texts and ``higherpair new`` a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from typing import Annotated, Any
 
@@ -89,6 +89,12 @@ def check_not_in_vain(keys: Any, names: Sequence[str], other: str) -> None:
     for name in names:
         if (value := getattr(keys, name)) != usual[name]:
             raise ParameterError(name, value, "needs_other", Nearest(None), other=other)
+
+
+def check_idle(keys: Any, idle: Iterable[tuple[Sequence[str], str]]) -> None:
+    """Refuse what a kind says of keys that do nothing beside the others, each with what it would act with."""
+    for names, other in idle:
+        check_not_in_vain(keys, names, other)
 
 
 class MadeKeys(MaterialKeys, kw_only=True):

@@ -17,7 +17,7 @@ from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline
-from parts.keys.base import check_not_in_vain, degrees, part_mm
+from parts.keys.base import check_idle, degrees, part_mm
 from parts.ratchets.wheel import RATCHET_WHEEL, RatchetWheelSpec
 
 if TYPE_CHECKING:
@@ -107,8 +107,7 @@ class PawlKind(Extruded[PawlSpec, Pawl]):
         """The pawl of another part's wheel, checked to have an outline that keeps off its teeth."""
         from geometry.gears.ratchets.pawl import checked_pawl
 
-        for names, other in self.idle(keys, others):
-            check_not_in_vain(keys, names, other)
+        check_idle(keys, self.idle(keys, others))
         owner = owner_of(keys.of, others, RatchetWheelSpec)
         wheel = RATCHET_WHEEL.thing(owner, others)
         try:

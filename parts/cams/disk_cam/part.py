@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
@@ -21,7 +21,7 @@ from parts.base.schema import nearest_key, replaced
 from parts.base.texts import N_
 from parts.cams.disk_cam.contour import ContourTable, contour_motion
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
-from parts.keys.base import MOST_LENGTH, part_mm, start
+from parts.keys.base import MOST_LENGTH, check_idle, part_mm, start
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
@@ -511,9 +511,7 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     asked, told = spec.least_transmission_angle_deg, spec.least_return_transmission_angle_deg
     # a swinging follower's is kept both ways, a sliding one's on the rise, unless the return has its own
     worst = max(steepest, back) if swings and told is None else steepest
-    for code, least, most in (("", asked, worst), ("return_", told, back)):
-        if least is not None and not cam.is_flat and 90 - most < least - _KEPT_DEG:
-            found.append(Finding(f"{code}transmission_angle_not_kept", 90 - most, least))
+    found += (*not_kept("", asked, worst), *not_kept("return_", told, back))
     pitch = least_convex_radius(cam).value + cam.radius
     if cam.kind == "roller":
         found += beyond("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch)
@@ -524,6 +522,13 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     if pitch - cam.radius < (least := spec.least_curvature_radius) * (1 - 1e-6):
         found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, least))
     return tuple(found)
+
+
+def not_kept(way: str, least: float | None, steepest: float) -> tuple[Finding, ...]:
+    """The remark that a base circle does not keep a transmission angle; ``way``: of the return or "", degrees."""
+    if least is None or 90 - steepest >= least - _KEPT_DEG:
+        return ()
+    return (Finding(f"{way}transmission_angle_not_kept", 90 - steepest, least),)
 
 
 def greatest_radius(cam: DiskCam) -> float:
@@ -540,10 +545,16 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
     data_table = "parts.cams.data_tables"
     sheet_shown = "cam", N_("diagrams and profile of the cam, DXF and SVG")
 
+    def idle(self, keys: CamSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
+        """Transmission angles of a flat face, which pushes along its normal, where they give no base circle."""
+        if keys.follower == "flat" and keys.base_circle_radius is not None:
+            yield ("least_transmission_angle_deg", "least_return_transmission_angle_deg"), 'follower = "roller"'
+
     def thing(self, keys: CamSpec, others: Others) -> DiskCam:
         """The cam, checked to move its follower all the way: an undercut one is told a large enough base circle."""
         from geometry.cams.plane.undercut import lost_to_undercut
 
+        check_idle(keys, self.idle(keys, others))
         cam, base, least = cam_of(keys), keys.base_circle_radius, 0.0
         if cam.is_flat and not cam.swings and base is not None:
             from geometry.cams.plane.synthesis import flat_base_radius

@@ -27,6 +27,7 @@ from parts.cams.disk_cam.part import (
     cam_quantities,
     impact_findings,
     larger_bases,
+    not_kept,
 )
 from parts.cams.wheel import DiskKeys, check_disk, inner_radius
 from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
@@ -229,11 +230,14 @@ def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
     found = impact_findings(disk.cam.motion, swings=disk.cam.swings)
     # a groove drives both ways: the limit holds for the return too
     usual = USUAL_PRESSURE_ANGLE[spec.oscillating is not None]
-    for kind, code in ((PhaseKind.RISE, "steep_pressure_angle"), (PhaseKind.RETURN, "steep_return_pressure_angle")):
+    for kind, code, way in (
+        (PhaseKind.RISE, "steep_pressure_angle", ""),
+        (PhaseKind.RETURN, "steep_return_pressure_angle", "return_"),
+    ):
         if not disk.cam.motion.moving_pieces(kind):
             continue
         steepest = math.degrees(greatest_pressure_angle(disk.cam, kind).value)
-        found += steep(steepest, usual, code)
+        found += (*steep(steepest, usual, code), *not_kept(way, spec.least_transmission_angle_deg, steepest))
     most = _USUAL_CLEARANCE * 2 * spec.follower_radius
     jams = spec.roller_clearance == 0
     play = (Finding("roller_play", 0.0, most),) if jams else beyond("roller_play", spec.roller_clearance, most)

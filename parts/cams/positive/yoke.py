@@ -16,7 +16,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import CAM, EVEN_CAM, CamSpec
-from parts.keys.base import check_not_in_vain, mm, part_mm
+from parts.keys.base import check_idle, mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -196,8 +196,7 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
 
         owner = owner_of(keys.of, others, CamSpec)
         cam = CAM.thing(owner, others)
-        for names, other in self.idle(keys, others):
-            check_not_in_vain(keys, names, other)
+        check_idle(keys, self.idle(keys, others))
         try:
             breadth = yoke_breadth(cam)
         except ParameterError as refusal:

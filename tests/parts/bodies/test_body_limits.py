@@ -456,6 +456,10 @@ def test_a_side_that_is_too_short_for_its_axles_is_told_how_long_it_has_to_be() 
     assert max(p.real for p in corners) == pytest.approx(37.0)
     assert min(p.real for p in corners) == pytest.approx(-25.0)
     assert max(p.imag for p in corners) == pytest.approx(20.0)
+    # without a hole of an axle it did nothing
+    without_axles = refused({"parts": {"f": PLATE | {"beyond_axles": 9.0}}, "exports": [{"format": "svg"}]})
+    assert without_axles is not None
+    assert (without_axles.key, without_axles.code) == ("parts.f.beyond_axles", "needs_other")
 
 
 def test_what_is_cut_where_no_part_is_is_told_by_its_place() -> None:

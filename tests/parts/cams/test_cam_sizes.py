@@ -283,6 +283,10 @@ CAM_REFUSED: list[tuple[Raw, str, object, str, object]] = [
     (scene_of(cam(base_circle_radius=None)), "base_circle_radius", GONE, "base_circle_missing", ...),
     (scene_of(cam(follower="flat", follower_radius=None, base_circle_radius=None)), "least_transmission_angle_deg",
      60.0, "flat_angle_is_45", 45.0),
+    # before: without effect
+    (scenes()["flat"], "least_transmission_angle_deg", 60.0, "needs_other", None),
+    (scenes()["flat"], "least_return_transmission_angle_deg", 20.0, "needs_other", None),
+    (scenes()["swinging flat"], "least_transmission_angle_deg", 60.0, "needs_other", None),
     (scenes()["swinging roller"], "follower_offset", 3.0, "arm_has_no_offset", 0.0),
     (scenes()["swinging roller"], "oscillating.face_offset", 3.0, "for_flat_only", 0.0),
     (scenes()["swinging roller"], "oscillating.centre_distance", GONE, "distance_missing", ...),

@@ -150,11 +150,13 @@ def test_a_key_that_no_export_takes_is_not_offered_itself() -> None:
     assert "kerf" not in str(refused.value).partition("= 0.2")[2]
 
 
-# what a default does nothing for: a stem that is not there, pins of a flat cam's frame
+# what a default does nothing for: a stem or axles that are not there, pins of a flat cam's frame, angles of a face
 IDLE = """
 [defaults]
 stem_width = 8.0
 pin_diameter = 5.0
+beyond_axles = 9.0
+least_transmission_angle_deg = 60.0
 [parts.tappet]
 kind = "follower"
 end = "roller"
@@ -167,6 +169,17 @@ phases = [
     { move = "rise", angle_deg = 90.0, law = "sine" }, { move = "dwell", angle_deg = 90.0 },
     { move = "return", angle_deg = 90.0, law = "sine" }, { move = "dwell", angle_deg = 90.0 },
 ]
+[parts.board]
+kind = "plate"
+width = 40.0
+height = 30.0
+[parts.roller_cam]
+kind = "cam"
+base_circle_radius = 40.0
+follower = "roller"
+follower_radius = 8.0
+lift = 10.0
+phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return", angle_deg = 180.0, law = "sine" }]
 [parts.stemless]
 kind = "yoke_frame"
 of = "cam"
@@ -184,8 +197,10 @@ def test_what_would_do_nothing_is_passed_over(tmp_path: Path) -> None:
     file.write_text(IDLE, encoding="utf-8")
     scene = load_scene(str(file))
     told = {(part, key) for part, keys in resolved(scene)["parts"].items() for key, value in keys.items()
-            if value == {"stem_width": 8.0, "pin_diameter": 5.0}.get(key, "")}  # fmt: skip
-    assert told == {("tappet", "stem_width"), ("tappet", "pin_diameter"), ("frame", "stem_width")}
+            if value == {"stem_width": 8.0, "pin_diameter": 5.0, "beyond_axles": 9.0,
+                         "least_transmission_angle_deg": 60.0}.get(key, "")}  # fmt: skip
+    assert told == {("tappet", "stem_width"), ("tappet", "pin_diameter"), ("frame", "stem_width"),
+                    ("roller_cam", "least_transmission_angle_deg")}  # fmt: skip
     assert set(plan_build(scene, str(file), [], []).parts) == set(scene.parts)
     assert main(["new", str(file), "--expand", "--out", str(plain)]) == 0
     assert resolved(load_scene(str(plain)))["parts"] == resolved(scene)["parts"]

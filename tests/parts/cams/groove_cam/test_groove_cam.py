@@ -272,6 +272,21 @@ def test_the_least_base_circle_serves_both_ways() -> None:
     assert min(both) < 30.0
 
 
+def test_a_given_base_circle_that_keeps_no_transmission_angle_is_noted_both_ways() -> None:
+    """Pressure angles by the lift's table: tan nu = (S' - e) / (s_0 + S); before, the key did nothing."""
+    part = parts_of({"cam": GROOVE | {"least_transmission_angle_deg": 89.0}})["cam"]
+    cam, angles = part.thing.cam, np.linspace(0.0, 2 * math.pi, 200_001)
+    lift = cam.motion.value(angles)
+    prime = GROOVE["base_circle_radius"] + GROOVE["follower_radius"]
+    offset = GROOVE.get("follower_offset", 0.0)
+    nu = np.degrees(np.arctan((np.gradient(lift, angles) - offset) / (math.sqrt(prime**2 - offset**2) + lift)))
+    told = {finding.code: (finding.value, finding.limit) for finding in part.findings}
+    assert told["transmission_angle_not_kept"] == (pytest.approx(90 - nu.max(), abs=1e-4), 89.0)
+    assert told["return_transmission_angle_not_kept"] == (pytest.approx(90 + nu.min(), abs=1e-4), 89.0)
+    kept = parts_of({"cam": GROOVE | {"least_transmission_angle_deg": 90 - np.abs(nu).max() - 1e-3}})["cam"]
+    assert not [finding for finding in kept.findings if finding.code.endswith("transmission_angle_not_kept")]
+
+
 # the farthest of the groove: the roller's centre at a height of sqrt(43^2 - 5^2) + 20 mm, 5 mm aside, and its play
 OUTERMOST = math.hypot(5.0, math.sqrt(43.0**2 - 25.0) + 20.0) + 8.1
 HOLES = {"holes": {"count": 3, "diameter": 8.0, "pitch_circle_diameter": 40.0}}
