@@ -10,6 +10,9 @@ from exporters.formats.readback import ReadMesh
 from geometry.curves.curve import Real
 from parts.base.readback import ReadError, refuse_if
 
+# triangles whose normals are checked together
+_AT_ONCE = 1 << 15
+
 
 def read_stl(file: Path) -> ReadMesh:
     """A binary STL; equal corners become one vertex."""
@@ -24,11 +27,15 @@ def read_stl(file: Path) -> ReadMesh:
     refuse_if(np.any(rows[:, 48:]), "an STL triangle has an attribute, which programs take for a colour")
     corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
     refuse_if(not np.all(np.isfinite(corners)), "an STL coordinate is not a number")
-    _check_normals(corners.reshape(-1, 3, 3).astype(float), rows[:, :12].copy().view("<f4").astype(float))
+    for k in range(0, count, _AT_ONCE):
+        normals = rows[k : k + _AT_ONCE, :12].copy().view("<f4").astype(float)
+        _check_normals(corners[3 * k : 3 * (k + _AT_ONCE)].reshape(-1, 3, 3).astype(float), normals)
+    del rows, data
     # + 0 makes one number of the two zeros
     keys = (corners + np.float32(0.0)).view("<u4")
     order = np.lexsort((keys[:, 2], keys[:, 1], keys[:, 0]))
-    fresh = np.any(keys[order[1:]] != keys[order[:-1]], axis=1)
+    rising = keys[order]
+    fresh = np.any(rising[1:] != rising[:-1], axis=1)
     group = np.concatenate([[0], np.cumsum(fresh)])
     vertex = np.zeros(len(order), dtype=np.int64)
     vertex[order] = group

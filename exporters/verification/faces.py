@@ -15,7 +15,7 @@ from exporters.formats.read_step import ReadSolid
 from exporters.formats.readback import ReadMesh
 from exporters.verification.area import told_verdict
 from exporters.verification.samples import edge_points, inner_points
-from exporters.verification.topology import doubled_normals, edge_lengths, topology_failures
+from exporters.verification.topology import doubled_areas, edge_lengths, of_each, topology_failures, volumes_under
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
 from geometry.curves.curve import Flags, Indices, Real
 from parts.base.texts import N_, unless
@@ -41,10 +41,8 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
     failures = topology_failures(mesh)
     if failures:
         return Verdict(count, tuple(failures))
-    corners = mesh.faces()
-    doubled = doubled_normals(corners)
-    sizes = np.linalg.norm(doubled, axis=1)
-    volume = float(np.einsum("ij,ij->i", corners[:, 0], doubled).sum() / 6)
+    sizes, under = (of_each(measure, mesh, mesh.triangles) for measure in (doubled_areas, volumes_under))
+    volume = float(under.sum() / 6)
     deviation, lone = mesh_deviation(mesh, body)
     exact = body.moments.volume
     reach = body.reach()
@@ -57,7 +55,7 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
         "volume": volume,
         "volume_error": volume / exact - 1,
         "max_deviation": deviation,
-        "shortest_edge": float(edge_lengths(corners).min()),
+        "shortest_edge": float(of_each(edge_lengths, mesh, mesh.triangles).min()),
         "least_triangle_area": float(sizes.min() / 2),
     }
     return Verdict(measured, tuple(failures))

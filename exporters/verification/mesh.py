@@ -9,7 +9,15 @@ import numpy as np
 from exporters.formats.readback import Loop, ReadMesh
 from exporters.verification.chamfers import chamfer_distances, slice_points
 from exporters.verification.outlines import verify_loops
-from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
+from exporters.verification.topology import (
+    Triangles,
+    chains,
+    doubled_areas,
+    doubled_normals,
+    of_each,
+    topology_failures,
+    volumes_under,
+)
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.base.distinct import distinct
 from geometry.curves.curve import Flags, Real
@@ -32,8 +40,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     failures = topology_failures(mesh)
     if failures:
         return Verdict(count, tuple(failures))
-    corners = mesh.faces()
-    measured = count | {"volume": float(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)).sum() / 6)}
+    measured = count | {"volume": float(of_each(volumes_under, mesh, mesh.triangles).sum() / 6)}
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
     off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
@@ -41,8 +48,8 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         return Verdict(measured, (fault("a vertex stands off every face"),))
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
-    corners = mesh.faces()
-    failures += _cap_failures(body, corners[np.ptp(corners[:, :, 2], axis=1) == 0], declared)
+    flat = mesh.triangles[np.ptp(heights[mesh.triangles], axis=1) == 0]
+    failures += _cap_failures(body, mesh.vertices[flat], declared)
     worst, edges, border = 0.0, [np.inf], 0.0
     for verdict, length in _wall_verdicts(mesh, body, declared, tolerance):
         failures += verdict.failures
@@ -58,14 +65,14 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         "volume_error": volume / exact - 1,
         "max_deviation": worst,
         "shortest_edge": min(edges),
-        "least_triangle_area": float(np.linalg.norm(doubled_normals(corners), axis=1).min() / 2),
+        "least_triangle_area": float(of_each(doubled_areas, mesh, mesh.triangles).min() / 2),
     }
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
 def _wall_verdicts(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -> Iterator[tuple[Verdict, float]]:
     """All triangles that are not flat against the walls, with the lengths of outlines that stand on each other."""
-    heights = mesh.faces()[:, :, 2]
+    heights = mesh.vertices[:, 2][mesh.triangles]
     low, high = heights.min(axis=1), heights.max(axis=1)
     rest = low != high
     between = [body.height(w) for w in body.walls if not body.is_upright(w)]
@@ -75,7 +82,7 @@ def _wall_verdicts(mesh: ReadMesh, body: Body, declared: float, tolerance: float
             mine &= (low == start) & (high == end)
             if any(a[0] < end and a[1] > start for a in between):
                 # a slice of a screw surface or of a chamfer may stand between the same heights
-                mine &= _stands(mesh, mesh.triangles)
+                mine[mine] = _stands(mesh, mesh.triangles[mine])
         rest &= ~mine
         yield from _verify_walls(mesh, mesh.triangles[mine], (start, end), body, walls, declared, tolerance)
     for wall in filter(body.is_screw, body.walls):
@@ -162,7 +169,7 @@ def _verify_walls(
         failures = deviation_failures(worst, declared, tolerance, body.section_reach())
         found.append((Verdict({"max_deviation": worst}, tuple(failures)), 0.0))
     for level, layer in layers:
-        loops = [places[chain] for chain in chains(layer, z == level, len(z))]
+        loops = [places[chain] for chain in chains(layer, z, level)]
         profiles = [body.standing(w, level) for w in walls]
         verdict = verify_loops(
             [Loop(v, np.zeros(len(v)), "") for v in loops],

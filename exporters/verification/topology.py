@@ -2,15 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh, closed_chains
-from geometry.curves.curve import Flags, Real
+from geometry.base.distinct import distinct
+from geometry.curves.curve import Real
 from parts.base.readback import refuse_if
 from parts.base.texts import fault
 
 Triangles = NDArray[np.int64]
+# triangles whose corners are looked at together: all of a large mesh would fill the memory
+AT_ONCE = 1 << 15
+
+
+def of_each(measure: Callable[[Real], Real], mesh: ReadMesh, triangles: Triangles) -> Real:
+    """What is measured on the corners (n, 3, 3) of triangles, (n, ...)."""
+    blocks = (triangles[k : k + AT_ONCE] for k in range(0, len(triangles), AT_ONCE))
+    return np.concatenate([measure(mesh.vertices[block]) for block in blocks])
+
+
+def doubled_areas(corners: Real) -> Real:
+    """Twice the area of each triangle, (n,)."""
+    return np.asarray(np.linalg.norm(doubled_normals(corners), axis=1))
+
+
+def volumes_under(corners: Real) -> Real:
+    """Six times the volume between each triangle and the origin, (n,)."""
+    return np.asarray(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)))
 
 
 def doubled_normals(corners: Real) -> Real:
@@ -28,12 +49,10 @@ def topology_failures(mesh: ReadMesh) -> list[str]:
     t = mesh.triangles
     if np.any((t[:, 0] == t[:, 1]) | (t[:, 1] == t[:, 2]) | (t[:, 2] == t[:, 0])):
         return [fault("a triangle has two equal corners")]
-    doubled = np.linalg.norm(doubled_normals(mesh.faces()), axis=1)
-    if not np.all(doubled > 0):
+    if not np.all(of_each(doubled_areas, mesh, t) > 0):
         return [fault("a triangle has no area")]
     n = len(mesh.vertices)
-    edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]).astype(np.int64)
-    forward, backward = np.sort(edges[:, 0] * n + edges[:, 1]), np.sort(edges[:, 1] * n + edges[:, 0])
+    forward, backward = (np.sort(np.concatenate([t[:, k] * n + t[:, k - way] for k in range(3)])) for way in (2, 1))
     if np.any(forward[1:] == forward[:-1]):
         return [fault("two triangles run along one edge the same way")]
     if not np.array_equal(forward, backward):
@@ -41,10 +60,10 @@ def topology_failures(mesh: ReadMesh) -> list[str]:
     return []
 
 
-def chains(triangles: Triangles, on_level: Flags, count: int) -> list[list[int]]:
-    """Closed chains of the triangles' edges that lie on a level, as vertex numbers."""
+def chains(triangles: Triangles, z: Real, level: float) -> list[list[int]]:
+    """Closed chains of the triangles' edges that lie on a level, as vertex numbers; ``z`` of the vertices, mm."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    edges = edges[on_level[edges].all(axis=1)]
+    edges = edges[(z[edges] == level).all(axis=1)]
     refuse_if(not len(edges), "a wall has no edge at one of its ends")
-    refuse_if(np.bincount(edges[:, 0], minlength=count).max() > 1, "an outline touches itself in a point")
+    refuse_if(len(distinct(edges[:, 0])) < len(edges), "an outline touches itself in a point")
     return closed_chains(dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True)))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from exporters.formats.readback import ReadMesh
-from exporters.verification.topology import Triangles, chains, edge_lengths
+from exporters.verification.topology import AT_ONCE, Triangles, chains, edge_lengths, of_each
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import distance_to_profile, profile_area, profile_length
 from geometry.solids.body import Body, Wall
@@ -45,7 +45,7 @@ def verify_twisted(
         # the triangles above a slice, below the last one
         layer = min(number, len(levels) - 2)
         mine = triangles[order[starts[layer] : starts[layer + 1]]]
-        loops = chains(mine, z == level, len(z))
+        loops = chains(mine, z, level)
         outline = body.moved_back(wall, mesh.vertices[loops[0]])
         found = 0.5 * abs(float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
         told = N_("the slice at z = {level:.6g} mm has {count} outlines")
@@ -53,12 +53,12 @@ def verify_twisted(
         near = len(loops) > 1 or not abs(found - area) > declared * length + 1e-12 * area
         told = N_("the slice at z = {level:.6g} mm encloses {found:.9g} mm^2 instead of {area:.9g} mm^2")
         failures += unless(near, told, level=level, found=found, area=area)
-    corners = mesh.vertices[triangles]
     places = _PLACES if len(triangles) < _MANY else _PLACES[3:4]
     shares = places / places.sum(axis=1, keepdims=True)
-    inside = np.einsum("pk,nkc->npc", shares, corners).reshape(-1, 3)
+    inside = of_each(lambda corners: np.einsum("pk,nkc->npc", shares, corners).reshape(-1, 3), mesh, triangles)
     points = np.concatenate([mesh.vertices[used], inside])
-    deviation = float(distance_to_profile(body.moved_back(wall, points), profile, trusted=declared).max())
+    blocks = (body.moved_back(wall, points[k : k + AT_ONCE]) for k in range(0, len(points), AT_ONCE))
+    deviation = float(np.max([distance_to_profile(block, profile, trusted=declared).max() for block in blocks]))
     failures += deviation_failures(deviation, declared, tolerance, profile.reach())
-    shortest = float(edge_lengths(corners).min())
+    shortest = float(of_each(edge_lengths, mesh, triangles).min())
     return Verdict({"max_deviation": deviation, "shortest_edge": shortest}, tuple(failures))

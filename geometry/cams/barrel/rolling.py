@@ -60,12 +60,11 @@ def wall_height(cam: BarrelCam, walls: dict[int, Real], slack: float) -> WallHei
         parts = [(0, plane[k], z[k], at[k]) for k in _rows(len(z))]
         while parts:
             halved, plane, z, at = parts.pop()
-            height = held(cam, side, plane, z, at)[0]
+            height, reach, apart = _bounds(cam, side, plane, z, at)
             worst = np.unravel_index(int(np.argmax(np.abs(height))), height.shape)
             if abs(height[worst]) > found:
                 found = abs(float(height[worst]))
                 where = _contact(cam, complex(plane[worst]), float(at[worst]))
-            reach, apart = _bounds(cam, side, plane, z, at)
             open_ = (reach > found + max(_NEAR * found, slack)) & (halved < _HALVINGS)
             bound = max(bound, float(reach[~open_].max(initial=0.0)))
             if open_.any():
@@ -127,23 +126,22 @@ def _refined(cam: BarrelCam, side: int, plane: Complex, at: Real, low: Real, hig
     return at
 
 
-def _bounds(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real) -> tuple[Real, Real]:
-    """Bounds (n,) of |height| on triangles (n, 3), their corners touched at ``at``, and what each edge adds, (n, 3).
+def _bounds(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real) -> tuple[Real, Real, Real]:
+    """Heights of triangles' corners (n, 3), touched at ``at``, bounds (n,) of |height|, what each edge adds, (n, 3).
 
     The greatest V is no less than any V, and that no less than at its worst corner. It is no more than at its best one
     and the sagitta of sqrt(rho^2 - y^2) between them, whose second derivative along a line is -W^2 / q^(3/2),
     q = rho^2 - y^2, W the same all along it. Edge k runs from corner k to the next.
     """
-    shape = (len(z), 3, 3)
-    every, aside, size = held(cam, side, plane[:, :, None], z[:, :, None], np.broadcast_to(at[:, None, :], shape))
+    every, aside, size = held(cam, side, plane[:, :, None], z[:, :, None], at[:, None, :])
     following = [1, 2, 0]
     apart = np.abs(size * aside[:, following] - aside * size[:, following]).max(axis=2)
     with np.errstate(divide="ignore", invalid="ignore"):
         least = np.where(np.isfinite(every), size**2 - aside**2, 0.0).min(axis=(1, 2))
         sagitta = np.where(least > 0, apart.max(axis=1) ** 2 / (8 * least**1.5), np.inf)
-    highest = np.einsum("nii->ni", every).max(axis=1) + sagitta
+    own = np.einsum("nii->ni", every)
     lowest = every.min(axis=1).max(axis=1)
-    return np.maximum(highest, -lowest), apart
+    return own, np.maximum(own.max(axis=1) + sagitta, -lowest), apart
 
 
 def _halved(cam: BarrelCam, side: int, plane: Complex, z: Real, at: Real, apart: Real) -> tuple[Complex, Real, Real]:
