@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
     from parts.base.part import Part
+    from parts.scene.scene_file import SceneFile
 
 # teeth lose their shape where the tolerance is a larger part of the module
 _COARSE_SHARE = 0.05
@@ -293,7 +294,8 @@ def several(export: ExportSpec, times: int) -> tuple[Finding, ...]:
     return (Finding(code, float(times), 1.0),) if times > 1 else ()
 
 
-def assembly_name(scene: str) -> str:
-    """A scene's name in the letters that every program reads, for the title of its assembly."""
-    text = re.sub(r"[^A-Za-z0-9._-]", "_", scene)
-    return text if re.search("[A-Za-z0-9]", text) else "assembly"
+def assembly_name(scene: SceneFile) -> str:
+    """A scene's name in the letters that every program reads, for the title of its assembly; no part has the same."""
+    text = re.sub(r"[^A-Za-z0-9._-]", "_", scene.name)
+    text = text if re.search("[A-Za-z0-9]", text) else "assembly"
+    return f"{text}.assembly" if text.lower() in {part.lower() for part in scene.parts} else text

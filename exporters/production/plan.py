@@ -226,7 +226,7 @@ class _Planning:
         path = _assembly_path(self.scene, asked.export, self.exports)
         self._take(path, asked.where)
         stand = tuple(i for i in self.placing.instances if i.part in asked.wanted)
-        name = assembly_name(self.scene.name)
+        name = assembly_name(self.scene)
         self.assemblies.append(AssemblyJob(name, asked.export, tuple(members), stand, path, asked.where))
 
     def _made(self, asked: Request) -> list[Job]:

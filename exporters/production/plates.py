@@ -93,7 +93,7 @@ def plate_jobs(asked: Request) -> list[PlateJob]:
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
             path = f"{asked.stem}.{len(found) + 1}.{export.format}"
             hulls = {p: feet[p][0] for p in counts}
-            of_scene = assembly_name(scene.name), export, members, stand, path, asked.where
+            of_scene = assembly_name(scene), export, members, stand, path, asked.where
             found.append(PlateJob(*of_scene, name, bed, times, hulls))
     return found
 

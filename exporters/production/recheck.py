@@ -151,7 +151,7 @@ def _held(file: Path, source: str, told: str, entry: dict[str, Any], declared: f
         if not kind.assembly or not stand:
             raise KeyError(f"an assembly of {len(stand)} instances, format {kind.format}")
         used = [parts[i.part] for i in stand]
-        expected = ExpectedAssembly(assembly_name(scene.name), {part.id: part for part in used}, offset, stand, bed)
+        expected = ExpectedAssembly(assembly_name(scene), {part.id: part for part in used}, offset, stand, bed)
         verdict = verify_assembly(file, kind, expected, declared, tolerance)
     verdict = signed(file, kind, str(entry.get("author", "")), str(entry.get("organisation", "")), verdict)
     if kind.form is not Form.FACES or verdict.failures or not has_kernel():

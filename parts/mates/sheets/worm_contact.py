@@ -210,15 +210,17 @@ def _curves(field: Field, flanks: list[Paper], along: Paper, pitch: float) -> li
 
 
 def _draw_sides(canvas: Canvas, field: Field, flanks: list[Paper], along: Paper) -> None:
-    """Straight sides of the tooth and of the fields, at the ends of the face."""
+    """Straight sides of the tooth and of the fields, at the ends of the face; of a field where it goes as far."""
     half = field.teeth.width / 2
     ends = np.array([-half, half])
     root, tip = field.teeth.root_radius(ends), field.teeth.tip_radius(ends)
-    cuts = [field.touching(ends, radii) for radii in field.edges(ends)]
+    edges = field.edges(ends)
+    there, cuts = np.greater(*edges), [field.touching(ends, radii) for radii in edges]
     for way, paper, layer in zip((1, -1), flanks, _FIELDS, strict=True):
         for k, height in enumerate(ends.tolist()):
             canvas.line(_TOOTH, *(paper.point(complex(way * height, r[k])) for r in (root, tip)))
-            canvas.line(layer, *(along.point(way * complex(cut.touching.imag[k], height)) for cut in cuts))
+            if there[k]:
+                canvas.line(layer, *(along.point(way * complex(cut.touching.imag[k], height)) for cut in cuts))
 
 
 def _draw_worm(canvas: Canvas, mating: WormMating, paper: Paper) -> None:

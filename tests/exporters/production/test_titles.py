@@ -10,7 +10,7 @@ import pytest
 
 from exporters.command.cli import main
 from exporters.formats.read_3mf import read_3mf
-from exporters.formats.read_step import read_step
+from exporters.formats.read_step import read_step, read_step_assembly
 from exporters.production.check_lines import names_of
 from parts.base.part import Part
 from parts.base.registry import KINDS
@@ -309,3 +309,16 @@ def test_of_two_assemblies_of_one_kind_each_part_is_called_by_its_own(language: 
     assert len(set(names.values())) == len(names)
     assert [names[f"{one}_sun"].endswith(f" ({one})") for one in ("first", "second")] == [True, True]
     assert [names[f"first_satellite_{k}"].endswith(f" (first) {k}") for k in (1, 2, 3)] == [True] * 3
+
+
+def test_an_assembly_has_another_name_than_its_parts(tmp_path: Path) -> None:
+    """A scene pin.toml with a part `pin` that has a title: both were one product, and the file failed its check."""
+    scene = tmp_path / "pin.toml"
+    scene.write_text(
+        '[parts.pin]\nkind = "pin"\ndiameter = 4.0\nlength = 9.0\ntitle = "Палець"\n[parts.ring]\nkind = "pin"\n'
+        'diameter = 8.0\nlength = 3.0\nbore_diameter = 4.0\n[[mates]]\nkind = "coaxial"\nfirst = "pin"\n'
+        'second = "ring"\n[[exports]]\nformat = "step"\nassembly = true\n', encoding="utf-8",
+    )  # fmt: skip
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+    assert main(["verify", str(tmp_path / "pin" / "pin.step")]) == 0
+    assert read_step_assembly(tmp_path / "pin" / "pin.step").title == "pin.assembly"

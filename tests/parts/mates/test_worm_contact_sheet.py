@@ -191,3 +191,22 @@ def test_flanks_too_low_to_touch_are_told(tmp_path: Path, capsys: pytest.Capture
     typed = [f"{key}={value}" for key, value in (("number_of_teeth", teeth), ("profile_shift_coefficient", shift))]
     page = calculate("worm", [*typed, *keys.replace(" ", "").split()], "json", "en")
     assert json.loads(page)["values"]["worm_ratio"] == 15
+
+
+def test_a_field_that_ends_within_the_face_has_no_side_at_the_end_of_it() -> None:
+    """A course work's drive, a_w 100, u 20, q 8: its shift of 1 m leaves no flank from 13.5 mm beside the mid plane on,
+    and the line across a field that is not there ran out of the sheet, which was refused.
+    """
+    keys = "module = 4.0\nnumber_of_starts = 2\ndiameter_quotient = 8.0\n"
+    text = (
+        f'[parts.g]\nkind = "worm_wheel"\nnumber_of_teeth = 40\nworking_centre_distance = 100.0\n'
+        f'face_width = 30.0\n{keys}'
+        f'[parts.w]\nkind = "worm"\nthread_length = 80.0\n{keys}[[mates]]\nkind = "worm_pair"\nfirst = "g"\n'
+        'second = "w"\n[[exports]]\nformat = "sheet"\npurpose = "meshing"\ntolerance = 1e-3\n'
+    )  # fmt: skip
+    canvas = plan_build(scene_from_toml(text.encode(), "w", "w"), "w", [], []).sheets[0].canvas
+    straight = [s.layer for s in canvas.strokes if isinstance(s.curve, Line)]
+    # the side at the other end of the face, and the legend's sample
+    assert [straight.count(layer) for layer in ("TOOTH_START", "TOOTH_END")] == [2, 2]
+    fields = [s.curve for s in canvas.strokes if s.layer in ("TOOTH_START", "TOOTH_END")]
+    assert all(canvas.content.holds(curve.point(np.array(curve.domain))) == 2 for curve in fields)
