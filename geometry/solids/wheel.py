@@ -71,8 +71,9 @@ class WheelShape(Record):
 
     @property
     def is_plate(self) -> bool:
-        """Whether the wheel is its section and nothing else."""
-        return self == WheelShape(self.face_width, twist=self.twist)
+        """Whether the wheel is its section and nothing else; so it is where a hub stands out nowhere."""
+        hub = self.hub is not None and (self.hub.below or self.hub.above)
+        return not (self.web or hub or self.chamfer_below or self.chamfer_above)
 
 
 # a boundary moved ``offset`` mm out of the material and then cut ``depth`` mm into it, segment for segment

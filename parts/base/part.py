@@ -11,6 +11,7 @@ from geometry.base.record import Record, replace
 from parts.base.kind import Kind
 from parts.base.materials import density_of, thickness_told
 from parts.base.part_keys import MaterialKeys
+from parts.base.schema import value_at
 from parts.base.texts import told_in, words
 
 if TYPE_CHECKING:
@@ -151,6 +152,8 @@ class Part(Record, dict=True):
         told = thickness_told(self.material or "")
         if told is not None and self.is_plate and f"{told:.6g}" != f"{self.face_width:.6g}":
             found = (*found, Finding("material_tells_thickness", told, self.face_width))
+        if self.is_plate and value_at(self.keys, "hub") is not None:
+            found = (*found, Finding("hub_stands_nowhere", 0.0, 0.0))
         return found
 
     @property

@@ -24,6 +24,7 @@ def notes_of(capsys: pytest.CaptureFixture[str], *words: str) -> list[str]:
     [
         (PULLEY, "the outer diameter is 12 mm, the belt's pitch asks for 12.224 mm"),
         *((part | {"hand": "left"}, "straight teeth have no hand") for part in (GEAR, RING, RACK, BEVEL)),
+        (GEAR | {"hub": {"diameter": 14.0}}, "the hub stands out nowhere"),
         *((part | {"thinning_method": "deeper_cut"}, "nothing is thinned") for part in (GEAR, RING)),
     ],
 )
@@ -55,3 +56,28 @@ def test_what_is_thinned_by_a_key_or_by_a_mate_is_cut_deeper_without_a_note(
     mate = {"kind": "external_gear_pair", "first": "p", "second": "w"} | ({} if own else {"normal_backlash": 0.2})
     scene = write_scene(tmp_path / "s.toml", {"p": deeper, "w": GEAR}, [{"format": "dxf"}], table("[[mates]]", mate))
     assert not [line for line in notes_of(capsys, "check", str(scene)) if "thinn" in line]
+
+
+@pytest.mark.parametrize("part", [
+    GEAR | {"hub": {"diameter": 14.0, "below": 3.0}},
+    GEAR | {"hub": {"diameter": 14.0}, "web": {"thickness": 4.0, "rim_diameter": 30.0}},
+])  # fmt: skip
+def test_a_hub_that_stands_out_has_no_note(
+    part: dict[str, object], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scene = str(write_scene(tmp_path / "s.toml", {"p": part}, [{"format": "stl"}]))
+    assert not [line for line in notes_of(capsys, "check", scene) if "hub" in line]
+
+
+def test_a_wheel_whose_hub_stands_out_nowhere_is_its_outline_and_lies_on_boards(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before, it was said that a flat outline holds only its section, and no board took it."""
+    board = {"width": 100.0, "height": 80.0, "thickness": 8.0}
+    exports = [{"format": "dxf"}, {"format": "dxf", "purpose": "board"}]
+    for name, part in (("plain", GEAR), ("hub", GEAR | {"hub": {"diameter": 14.0}})):
+        scene = write_scene(tmp_path / f"{name}.toml", {"p": part}, exports, table("[boards.b]", board))
+        found = notes_of(capsys, "build", str(scene), "--out", str(tmp_path))
+        assert not [line for line in found if "outline" in line]
+    for one, other in (("p.dxf", "p.dxf"), ("hub.board.1.dxf", "plain.board.1.dxf")):
+        assert (tmp_path / "hub" / one).read_bytes() == (tmp_path / "plain" / other).read_bytes()
