@@ -32,7 +32,8 @@ def at_home(refusal: SceneError, raw: Tables, plain: Mapping[str, type[Struct]])
     if steps and len(steps) < 4 and steps[0] in map(_table, plain):
         refusal.numbers["see"] = refusal.numbers.get("see") or f"higherpair new {steps[0]}"
     own, key = "" if len(steps) < 2 else steps[0], steps[-1] if steps else ""
-    near, alike = refusal.nearest, SYNONYMS.get(key.lower(), [])
+    # what a mate does not lay higher its place does
+    near, alike = refusal.nearest, ["at"] if (own, key) == ("mates", "height") else SYNONYMS.get(key.lower(), [])
     sure = near and (near.side == "same" or near.value in alike)
     if sure or (near and difflib.SequenceMatcher(None, key, str(near.value)).ratio() >= _NEAR):
         return refusal

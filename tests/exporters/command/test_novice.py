@@ -62,6 +62,8 @@ MISPLACED = (
     ("[scene]", "kerf = 0.2", "scene.kerf = 0.2: kerf belongs to [defaults] or [[exports]]"),
     ("[scene]", "teeth = 20", "number_of_teeth belongs to [defaults] or [parts.NAME]"),
     ('kind = "external_gear_pair"', "module = 2.0", "is no key of a mate, but one of parts.a; write it there"),
+    # it was sent to face_width
+    ('kind = "external_gear_pair"', "height = 8.0", "mates[1].height = 8.0: at belongs to [instances.NAME]"),
     ('kind = "external_gear_pair"', "turns = 2.0", "turns belongs to [[drives]]"),
     ("[[exports]]", 'title = "x"', "title belongs to [parts.NAME] or [scene] or [instances.NAME]"),
     ("[defaults]", 'language = "uk"', "language belongs to [scene]"),
