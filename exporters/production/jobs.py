@@ -212,7 +212,7 @@ class Job(Content, FileJob):
         """Remarks on one file: a tolerance too coarse for the teeth, edges too short for a laser."""
         part, kind = self.part, self.kind
         # a part that says itself what its flat outline lacks needs no more
-        says = kind.is_solid or part.is_plate or any(f.code == "flat_pins" for f in part.flat_findings)
+        says = kind.is_solid or part.is_plate or any(f.code in ("flat_pins", "development") for f in part.flat_findings)
         found = [] if says else [Finding("flat_outline", 0.0, 0.0)]
         found += [] if kind.is_solid else part.flat_findings
         # a part without teeth has none to lose

@@ -350,6 +350,10 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
         """The barrel's length."""
         return thing.length
 
+    def is_plate(self, keys: BarrelCamSpec, thing: BarrelBody) -> bool:
+        """Its flat outline is no section of it."""
+        return False
+
     def report(self, keys: BarrelCamSpec, thing: BarrelBody) -> Report:
         """Sizes, pressure angles, the largest roller."""
         unrolled = (Finding("development", 2 * math.pi * thing.cam.outer, 2 * thing.cam.outer),)

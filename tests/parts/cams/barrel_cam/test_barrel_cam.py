@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import math
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from msgspec import convert
 
+from exporters.production.plan import plan_build
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.cams.barrel.body import BarrelBody, barrel_moments
 from parts.base.part import Part
+from parts.base.refusal import SceneError
 from parts.cams.barrel_cam.part import BARREL_CAM
 from parts.cams.barrel_cam.probe import GrooveRoller
 from parts.keys.barrel import BarrelCamSpec
 from parts.scene.load import load_scene, make_parts, scene_from_dict
+from tests.exporters.making import read_report, run, write_scene
 from tests.parts.nearest import cured, refused
 
 PHASES = [
@@ -220,3 +224,20 @@ def test_rollers_longer_than_ten_diameters_are_refused(keys: dict[str, Any], dia
     assert found.nearest is not None
     assert found.nearest.value == pytest.approx(0.8, abs=1e-12)
     assert body_of(keys | {"roller_diameter": 0.8}).cam.radius == pytest.approx(0.4)
+
+
+def test_a_development_is_cut_from_no_board(tmp_path: Path) -> None:
+    """A board as thick as the barrel is long, 20 + 10 + 2 x 5 mm, was laid out with what goes around its cylinder."""
+    raw = {"parts": {"cam": GROOVE}, "boards": {"b": {"width": 300.0, "height": 200.0, "thickness": 40.0}},
+           "exports": [{"format": "dxf", "purpose": "board"}]}  # fmt: skip
+    with pytest.raises(SceneError) as told:
+        plan_build(scene_from_dict(raw, "s", "s"), "s", [], [])
+    assert (told.value.key, told.value.code) == ("boards.b.thickness", "no_flat_part")
+    assert not part_of(GROOVE).is_plate
+    # what its flat outline is says enough
+    file = write_scene(tmp_path / "s.toml", {"cam": GROOVE}, [{"format": "svg"}])
+    assert run("build", file, "--out", tmp_path) == 0
+    (entry,) = read_report(tmp_path / "s")["files"]
+    codes = [finding["code"] for finding in entry["findings"]]
+    assert "development" in codes
+    assert "flat_outline" not in codes
