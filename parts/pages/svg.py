@@ -25,7 +25,7 @@ def written(x: float, y: float, text: str, colour: str = INK, size: int = 12, an
 
 def _lowered(text: str, by: float) -> str:
     """A text with its indices ``by`` px lower; spaces behind one stand before what goes back, where they are kept."""
-    first, *rest = re.split(r"_(\w+)(\s*)([^_]*)", text)
+    first, *rest = re.split(r"_([^\W²³]+)(\s*)([^_]*)", text)
     for index, room, after in zip(rest[::4], rest[1::4], rest[2::4], strict=True):
         back = f'<tspan dy="{-by:g}">{after}</tspan>' if after else ""
         first += f'<tspan dy="{by:g}" style="font-size:75%">{index}</tspan>{room}{back}'

@@ -22,6 +22,7 @@ from geometry.gears.teeth.ring import RoundedRoot
 from parts.base.texts import MINUS, words
 from parts.pages.contour_picture import ContourPicture, clipped, contour_text, grid_step, region_text, tool_texts
 from parts.pages.error_map import ErrorMap
+from parts.pages.svg import written
 
 SVG = "{http://www.w3.org/2000/svg}"
 EN = words("en")
@@ -352,3 +353,10 @@ def test_an_error_map_of_one_value_has_one_colour_and_no_reach() -> None:
     texts = sheet.texts()
     assert "r = 0 … 50 mm" in texts
     assert not any(t.endswith(": 1") for t in texts)
+
+
+def test_a_power_behind_an_index_stands_on_the_line() -> None:
+    """The square of a driver's velocity was small and low, as a part of its index."""
+    made = ElementTree.fromstring(written(0, 0, "ε_2/ω_1²"))
+    assert "".join(made.itertext()) == "ε2/ω1²"
+    assert [one.text for one in made if "font-size" in one.get("style", "")] == ["2", "1"]
