@@ -318,7 +318,8 @@ def test_teeth_of_round_wheels_are_not_cut_and_their_pitch_circle_is_an_axis(tmp
     # z p / pi and p / sin(180 deg / z), m z; below them the roots
     pitch, root = {
         "sprocket": (12.7 / math.sin(math.pi / 12), 12.7 / math.sin(math.pi / 12) - 8.51),
-        "pulley": (90 / math.pi, 90 / math.pi - 3.33),
+        # makers' tables: 2a = 0.85 of T5, an outer diameter of 27.80 with 18 teeth, and grooves 1.25 deep
+        "pulley": (90 / math.pi, 90 / math.pi - 0.85 - 2 * 1.25),
         "clock": (60.0, 55.0),
     }[name]
     circles = {round(c.dxf.radius, 5): c.dxf for c in space.query("CIRCLE[layer=='CENTRE']")}
