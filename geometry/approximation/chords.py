@@ -8,7 +8,7 @@ large.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -94,9 +94,9 @@ def _joined(profile: Profile) -> Profile:
 
 
 def approximate_together(
-    profiles: Sequence[Profile], tolerance: float, least_edge: float = 0.0
+    profiles: Sequence[Profile], walls: Collection[tuple[int, int]], tolerance: float, least_edge: float = 0.0
 ) -> tuple[Approximation, ...]:
-    """Chords of profiles of equal segments, at equal shares of each: the ends of ruled walls.
+    """Chords of profiles of equal segments, at equal shares of each: both ends of ruled walls, by their numbers.
 
     The error holds on the walls too: a wall's two triangles leave the ruled surface between them by a quarter
     of the normal part of their twist at most.
@@ -104,7 +104,7 @@ def approximate_together(
     slack = min(least_edge, tolerance / 4)
     shares = []
     for curves in zip(*([s.curve for s in p.period] for p in profiles), strict=True):
-        shares.append(_shared_chords(curves, tolerance - slack))
+        shares.append(_shared_chords(curves, walls, tolerance - slack))
     made = [
         [s.curve.point(at_shares(s.curve, t)) for s, (t, _) in zip(p.period, shares, strict=True)] for p in profiles
     ]
@@ -126,7 +126,7 @@ def approximate_together(
     )
 
 
-def _shared_chords(curves: Sequence[Curve], tolerance: float) -> tuple[Real, float]:
+def _shared_chords(curves: Sequence[Curve], walls: Collection[tuple[int, int]], tolerance: float) -> tuple[Real, float]:
     """Shares (n + 1,) of matching curves at which all are cut into chords, and the greatest error, mm."""
     counts = [chord_parameters(c, tolerance)[0] for c in curves]
     finest = max(range(len(curves)), key=lambda i: len(counts[i]))
@@ -135,7 +135,7 @@ def _shared_chords(curves: Sequence[Curve], tolerance: float) -> tuple[Real, flo
     shares[[0, -1]] = 0.0, 1.0
     while len(shares) <= _MAX_CHORDS:
         error = max(0.0 if isinstance(c, Line) else chord_error(c, at_shares(c, shares)) for c in curves)
-        error += _twist(np.array([c.point(at_shares(c, shares)) for c in curves]))
+        error += _twist(np.array([c.point(at_shares(c, shares)) for c in curves]), walls)
         if error <= tolerance:
             return shares, error
         finer = np.linspace(0, len(shares) - 1, math.ceil(1.2 * len(shares)) + 1)
@@ -143,11 +143,12 @@ def _shared_chords(curves: Sequence[Curve], tolerance: float) -> tuple[Real, flo
     raise ConvergenceError("chords for the tolerance", tolerance, _MAX_CHORDS)
 
 
-def _twist(points: Complex) -> float:
+def _twist(points: Complex, walls: Collection[tuple[int, int]]) -> float:
     """Bound of the distance between ruled walls over matching chords and their triangles, mm; points (k, n)."""
     chords = np.diff(points, axis=1)
     along = np.conj(chords / np.abs(chords))
-    return float(max(np.abs((a * (chords - c)).imag).max() for a, c in zip(along, chords, strict=True))) / 4
+    ends = [pair for wall in walls for pair in (wall, wall[::-1])]
+    return float(max(np.abs((along[a] * (chords[b] - chords[a])).imag).max() for a, b in ends)) / 4
 
 
 def _arc_piece(curve: Curve, tolerance: float) -> Piece:

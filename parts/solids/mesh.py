@@ -83,9 +83,11 @@ def _chamfered(
     Those of screw surfaces leave a share of the tolerance to the slices of these.
     """
     profiles = [body.profiles[i] for i in group]
-    bow = max(chamfer_bow(body, *chamfer) for chamfer in body.chamfers() if body.loops[chamfer[1]].profile in group)
+    chamfers = [chamfer for chamfer in body.chamfers() if body.loops[chamfer[1]].profile in group]
+    bow = max(chamfer_bow(body, *chamfer) for chamfer in chamfers)
+    walls = {(group.index(body.loops[a].profile), group.index(body.loops[b].profile)) for _, a, b in chamfers}
     turned = any(i in twisted for i in group)
-    made = approximate_together(profiles, (_TURNED_SHARE if turned else 1.0) * tolerance - bow, least_edge)
+    made = approximate_together(profiles, walls, (_TURNED_SHARE if turned else 1.0) * tolerance - bow, least_edge)
     bound: Bound = "sampled" if bow > 0 else made[0].bound
     found = [replace(a, max_error=a.max_error + bow, bound=bound, tolerance=tolerance) for a in made]
     for k, index in enumerate(group):

@@ -142,6 +142,19 @@ def test_what_is_offered_for_too_many_triangles_of_bent_faces_is_made(
         assert 0.4 * most < len(mesh.geometry) <= most
 
 
+def test_fewer_triangles_are_offered_of_walls_that_are_proven(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A barrel cam was offered a mesh that took two minutes: every triangle is proven twice."""
+    most, motion = 20_000, [{"move": way, "angle_deg": 180.0, "law": "sine"} for way in ("rise", "return")]
+    cam = {"kind": "barrel_cam", "form": "end", "outer_diameter": 40.0, "groove_depth": 5.0, "roller_diameter": 8.0,
+           "lift": 6.0, "phases": motion}  # fmt: skip
+    monkeypatch.setattr("exporters.formats.registry._MOST_EDGES", 2 * most)
+    monkeypatch.setattr("parts.solids.face_mesh._MOST_TRIANGLES", most)
+    found = refused(cam, tmp_path, format="stl", tolerance=1e-7).nearest
+    assert found is not None
+    (mesh,) = cast("tuple[FaceMesh]", shape_of(planned(cam, format="stl", tolerance=found.value).jobs[0]))
+    assert 0.1 * most < len(mesh.geometry) <= most / 3
+
+
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("more", [{}, {"helix_angle_deg": 25.0}, {"helix_angle_deg": 25.0, "bore_diameter": 5.0}])
 def test_edges_are_counted_in_every_slice_of_a_twisted_wall(
