@@ -18,6 +18,7 @@ import numpy as np
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record, made_once, replace
 from geometry.curves.curve import Real
+from geometry.solids.body import Body
 from geometry.solids.faced import FacedBody
 from parts.base.part import Part
 from parts.scene.half_sections import Sections
@@ -25,8 +26,9 @@ from parts.scene.placing import Placing
 from parts.scene.standing import UPWARDS, Instance
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 
-# boundaries go this far into the material, as a part of the solid's size, and the mesh half of it
-INSET = 2e-4
+# boundaries go this far into the material, as a part of the solid's size, those of upright walls at most mm, and the
+# mesh half of it
+INSET, MOST_INSET = 2e-4, 1e-3
 _SHARE = 0.5
 # where a wall is thin they go in by less
 _INSETS = (1.0, 1 / 4, 1 / 16, 1 / 64)
@@ -152,9 +154,23 @@ def inner_solid(part: Part) -> Any:
     return made_once(part, "inner_solid", lambda: _inner_solid(part))
 
 
+def is_slabs(body: Body | FacedBody) -> bool:
+    """Whether a body is upright slabs: no screws, chamfers or curved faces."""
+    return not body.is_faced and all(body.is_upright(wall) for wall in body.walls)
+
+
+def inset_of(reach: float, *, upright: bool) -> float:
+    """How far boundaries of a solid that reaches so far from its axis go into it, mm.
+
+    Of upright walls, whose outlines cost little, no farther where it is large: a pin too thick for a frame's hole is
+    as much too thick in a longer frame.
+    """
+    return min(INSET * reach, MOST_INSET) if upright else INSET * reach
+
+
 def _inner_solid(part: Part) -> Any:
     body = part.body(0.0)
-    inset = INSET * body.section_reach()
+    inset = inset_of(body.section_reach(), upright=is_slabs(body))
     for share in () if isinstance(body, FacedBody) else _INSETS:
         with suppress(GeometryError):
             inner = part.body(-share * inset)

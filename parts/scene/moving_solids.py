@@ -20,7 +20,7 @@ from geometry.base.errors import GeometryError
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Real
 from parts.scene.half_sections import Sections
-from parts.scene.interference import INSET, SLIVER, by_contact, common_volume, placed_solid
+from parts.scene.interference import SLIVER, by_contact, common_volume, inset_of, placed_solid
 from parts.scene.placing import Placing
 from parts.scene.relative_path import Course, Path, path_of, stays_free
 from parts.scene.shapes import Shape, SweptShape, free_between
@@ -291,8 +291,8 @@ class Meeting:
     def __init__(self, shapes: tuple[Shape, Shape], lift: float, most: float, sought: float) -> None:
         self.shapes, self.lift, self.most, self.sought = shapes, lift, most, sought
         one, two = shapes
-        self.fine = INSET * max(one.reach, two.reach)
         self.first, self.second = one.slabs or (), two.slabs or ()
+        self.fine = max(inset_of(shape.reach, upright=bool(shape.slabs)) for shape in shapes)
         self.meet = self._slabs if self.first and self.second else self._meshes
         self.last = self.fine
         self.sliver = SLIVER * min(one.solid.volume(), two.solid.volume())

@@ -16,7 +16,7 @@ from geometry.plane.profile import Profile
 from geometry.solids.body import Body
 from parts.base.part import Part
 from parts.scene.half_sections import Sectioned, sectioned
-from parts.scene.interference import inner_solid
+from parts.scene.interference import inner_solid, is_slabs
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -112,8 +112,7 @@ class Shape:
     @property
     def is_slabs(self) -> bool:
         """Whether it is upright slabs: no screws, chamfers or curved faces."""
-        body = self.part.body(0.0)
-        return not body.is_faced and all(body.is_upright(wall) for wall in body.walls)
+        return is_slabs(self.part.body(0.0))
 
     @cached_property
     def slabs(self) -> tuple[Slab, ...] | None:

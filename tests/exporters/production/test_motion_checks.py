@@ -122,6 +122,17 @@ def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
         assert 0 < found["solids"][0]["drive_turn_deg"] < 360
 
 
+def test_a_large_post_that_is_grazed_is_found(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A pin of 6 goes round at 30 mm, a post of 100 stands 0.005 mm too near, then as much too far."""
+    posts = {"pin": POST, "post": POST | {"diameter": 100.0}, "disk": POST | {"diameter": 10.0}}
+    mates = [{"kind": "fixed", "first": "disk", "second": "pin", "offset": [-18.0, -24.0, 5.0]}]
+    for away, grazed in ((-0.005, True), (0.005, False)):
+        stands = {"disk": {"at": [0.0, 0.0, 0.0]}, "post": {"at": [83.0 + away, 0.0, 5.0]}}
+        raw = {"parts": posts, "instances": stands, "mates": mates, "drives": [{"instance": "disk", "turns": 1.0}]}
+        code, found = check(tmp_path, raw, capsys)
+        assert (code == 1) == grazed == bool(found.get("solids", [])), away
+
+
 @pytest.mark.parametrize(("y", "strikes"), [(28.5, False), (27.5, True)])
 def test_what_stands_still_beside_a_lying_gear_is_not_swept(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], y: float, strikes: bool

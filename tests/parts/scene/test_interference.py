@@ -50,6 +50,18 @@ def test_a_gear_within_a_bore_is_clear_until_it_touches_the_wall() -> None:
     assert overlaps({"a": ring, "b": small}, {"a": {"at": [0, 0, 0]}, "b": {"at": [11.5, 0, 0]}})
 
 
+@pytest.mark.parametrize("width", [60.0, 300.0, 1200.0])
+def test_a_pin_too_thick_for_a_hole_is_found_in_a_frame_of_any_length(width: float) -> None:
+    """0.02 mm of the diameter, a ring of 0.755 mm^3; what was taken off a frame grew with its length."""
+    hole = {"at": [width / 2 - 10.0, 0.0], "diameter": 6.0}
+    frame = {"kind": "plate", "width": width, "height": 20.0, "holes": [hole], "face_width": 4.0}
+    stands = {"frame": {"at": [0.0, 0.0, 0.0]}, "pin": {"at": [*hole["at"], -8.0]}}
+    pin = {"kind": "pin", "diameter": 6.02, "length": 20.0}
+    found = overlaps({"frame": frame, "pin": pin}, stands)[("frame", "pin")]
+    assert 0.5 < found / (math.pi * (3.01**2 - 3.0**2) * 4.0) < 1.0
+    assert overlaps({"frame": frame, "pin": pin | {"diameter": 6.0}}, stands) == {}
+
+
 def test_coaxial_disks_share_the_common_height() -> None:
     found = overlaps({"a": DISK, "b": DISK}, {"a": {"at": [0, 0, 0]}, "b": {"at": [0, 0, 4]}})
     section = make_parts(scene_from_dict({"parts": {"a": DISK}}, "t", "t"), "t")[0]["a"].to_trimesh(0.001).volume / 10
