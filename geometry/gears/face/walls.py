@@ -12,7 +12,9 @@ from geometry.gears.face.gear import FaceGear, Places
 # steps of the search for a foot, how far beyond the ends of a side it goes, part of it, and the step of slopes
 _STEPS, _BEYOND, _SHIFT = 12, 0.02, 1e-5
 # how near along a side a foot is found, modules
-_FOUND = 1e-7
+_FOUND = 1e-8
+# places of a file whose feet are sought together: few wait for the slowest then
+_AT_ONCE = 1 << 12
 # shares at which a foot is first looked for
 _TABLE = np.linspace(0.0, 1.0, 33)
 
@@ -26,13 +28,16 @@ def side_off(gear: FaceGear, which: int, radius: Real, aside: Real, depth: Real)
     place = radius * aside + 1j * depth
     middle = _unrolled(gear.side(which, _TABLE, (gear.inner_radius + gear.outer_radius) / 2))
     share = _TABLE[np.abs(place[:, None] - middle).argmin(axis=1)]
+    rows = np.arange(len(share))
     for _ in range(_STEPS):
-        at = gear.side(which, share, radius)
+        before, own = share[rows], radius[rows]
+        at = gear.side(which, before, own)
         along = 1j * at.around / np.abs(at.around)
-        left = (np.conj(along) * (place - _unrolled(at))).real
-        slope = (np.conj(along) * (_unrolled(gear.side(which, share + _SHIFT, radius)) - _unrolled(at))).real / _SHIFT
-        before, share = share, np.clip(share + left / slope, -_BEYOND, 1 + _BEYOND)
-        if (np.abs((share - before) * slope) < _FOUND * gear.module).all():
+        left = (np.conj(along) * (place[rows] - _unrolled(at))).real
+        slope = (np.conj(along) * (_unrolled(gear.side(which, before + _SHIFT, own)) - _unrolled(at))).real / _SHIFT
+        share[rows] = np.clip(before + left / slope, -_BEYOND, 1 + _BEYOND)
+        rows = rows[~(np.abs((share[rows] - before) * slope) < _FOUND * gear.module)]
+        if not rows.size:
             break
     at = gear.side(which, share, radius)
     off = np.conj(at.around) * (place - _unrolled(at))
@@ -50,5 +55,8 @@ def wall_distance(gear: FaceGear, which: int, points: Real) -> Real:
     radius = np.clip(reach, gear.inner_radius, gear.outer_radius)
     turn = np.arctan2(points[:, 1], points[:, 0])
     aside = np.abs(turn - pitch * np.round(turn / pitch))
-    off, left = side_off(gear, which, radius, aside, gear.shaper_height - points[:, 2])
+    depth, off, left = gear.shaper_height - points[:, 2], np.empty(len(points)), np.empty(len(points))
+    for k in range(0, len(points), _AT_ONCE):
+        own = slice(k, k + _AT_ONCE)
+        off[own], left[own] = side_off(gear, which, radius[own], aside[own], depth[own])
     return np.sqrt(off**2 + left**2 + (reach - radius) ** 2)
