@@ -191,8 +191,12 @@ def _development(subject: Subject, told: float) -> View:
     """The jackets of the outer cylinder; ``told``: the height that the section tells."""
     region = subject.part.section(0.0).region
     outlines = (region.outer, *region.apart)
-    curves = [s.curve for outline in outlines for s in outline.segments()]
-    left, right, low, high = (farthest(curves, way) for way in (-1, 1, -1j, 1j))
+    jackets = [[s.curve for s in outline.segments()] for outline in outlines]
+    curves = [curve for jacket in jackets for curve in jacket]
+    low, high = (farthest(curves, way) for way in (-1j, 1j))
+    # where the walls run through the start slanted, the jackets' ends stand aside of each other
+    lowest = min(jackets, key=lambda jacket: farthest(jacket, -1j).imag)
+    left, right = (farthest(lowest, way) for way in (-1, 1))
     corner = complex(left.real, low.imag)
     around = Size("circumference", corner, complex(right.real, low.imag), "below")
     height = Size("development.height", corner, complex(left.real, high.imag), "left")

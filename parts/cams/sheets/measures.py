@@ -105,13 +105,19 @@ class CamMeasures(Record):
 
 
 def distance_by_sections(points: Complex, curve: Curve) -> Real:
-    """Distance of points from a curve that may stand still at its ends: golden sections about the nearest sample."""
+    """Distance of points from a curve that may stand still at its ends: golden sections about the nearest samples.
+
+    About two of them that are nearer than those beside: a curve that turns back passes a point twice.
+    """
     t = np.linspace(*curve.domain, _SAMPLES)
-    nearest = np.abs(points[:, None] - curve.point(t)).argmin(axis=1)
+    away = np.pad(np.abs(points[:, None] - curve.point(t)), ((0, 0), (1, 1)), constant_values=np.inf)
+    dips = (away[:, 1:-1] <= away[:, :-2]) & (away[:, 1:-1] <= away[:, 2:])
+    nearest = np.where(dips, away[:, 1:-1], np.inf).argsort(axis=1, kind="stable")[:, :2].ravel()
     low, high = t[np.maximum(nearest - 1, 0)], t[np.minimum(nearest + 1, _SAMPLES - 1)]
+    twice = np.repeat(points, 2)
 
     def off(at: Real) -> Real:
-        return np.abs(curve.point(at) - points)
+        return np.abs(curve.point(at) - twice)
 
     left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     a, b = off(left), off(right)
@@ -123,4 +129,5 @@ def distance_by_sections(points: Complex, curve: Curve) -> Real:
         found = off(new)
         left, right = np.where(lower, new, right), np.where(lower, left, new)
         a, b = np.where(lower, found, b), np.where(lower, a, found)
-    return np.minimum(np.minimum(a, b), np.minimum(off(t[0] + 0 * low), off(t[-1] + 0 * low)))
+    found = np.minimum(np.minimum(a, b), np.minimum(off(t[0] + 0 * low), off(t[-1] + 0 * low)))
+    return np.asarray(found.reshape(-1, 2).min(axis=1))

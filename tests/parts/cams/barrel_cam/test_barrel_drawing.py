@@ -175,3 +175,11 @@ def test_the_development_tells_its_height_where_the_section_does_not() -> None:
     assert (around.name, height.name, height.side) == ("circumference", "development.height", "left")
     assert height.value > sizes(made)["start_height"].value + 1
     assert height.start == around.start
+
+
+def test_the_development_of_a_motion_that_runs_through_its_start_is_one_turn_long() -> None:
+    """A measured motion: its walls end slanted, and both jackets together told 0.16 mm more than the circumference."""
+    table = [[0.0, 0.0], [60.0, 6.0], [150.0, 12.0], [240.0, 3.0]]
+    tabled = {key: value for key, value in KEYS.items() if key not in ("phases", "lift")} | {"motion_table": table}
+    width = next(one for one in drawing_of(tabled).views[-1].sizes if one.name == "circumference")
+    assert width.value == pytest.approx(2 * math.pi * 35, abs=1e-9)

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geometry.curves.bspline import BSpline
 from geometry.curves.line_arc import Arc, Line
 from parts.cams.disk_cam.part import CAM
 from parts.cams.sheets.joint import joint_of, joint_paper
+from parts.cams.sheets.measures import distance_by_sections
 from parts.cams.sheets.picture import CamPicture, cam_picture
 from parts.cams.sheets.swing import swing_of
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas
@@ -464,3 +466,13 @@ def test_by_hand_the_axes_stand_alone_with_what_is_given() -> None:
     assert {t.answer for t in drawn.canvas.texts if t.text.startswith("γ")} == {False}
     drawn = Drawn(picture(ROLLER.format(offset=0.0), None), by_hand=True)
     assert {t.text for t in drawn.canvas.texts} == {"S, mm", "S', mm/rad"}
+
+
+def test_a_point_of_a_curve_that_turns_back_lies_on_it() -> None:
+    """x = (t - 0.3)^2, a hairpin of 1e-5 mm, as S' over S of a measured motion has them: its nearest sample may lie
+    on the other side, whence a sheet was told to be off by that.
+    """
+    hairpin = BSpline(2, np.array([0.0, 0, 0, 1, 1, 1]), np.array([0.09, -0.21 + 5e-6j, 0.49 + 1e-5j]))
+    points = hairpin.point(np.linspace(0.0, 0.6, 301))
+    # between the samples beside the bend both sides are one dip
+    assert distance_by_sections(points, hairpin).max() < 1e-7
