@@ -43,7 +43,7 @@ def seen_lying(part: Part, instance: Instance, chord: float, *, spins: bool) -> 
         rows = made.bands
     else:
         points, off = outer_points(part, chord)
-        levels = part.body(0.0).levels()
+        levels = part.blank(0.0).levels()
         far = float(np.abs(points).max())
         rows = np.array([[levels[0], levels[-1], 0.0, 0.0, far, far]])
     if made.half is not None or (spins and is_round(part)):

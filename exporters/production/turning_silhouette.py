@@ -73,7 +73,7 @@ def ends_of(part: Part, chord: float) -> Ends:
     points, off = outer_points(part, chord)
     hull = shapely.MultiPoint(np.column_stack([points.real, points.imag])).convex_hull
     xy = shapely.get_coordinates(shapely.orient_polygons(hull).exterior)[:-1]
-    levels = part.body(0.0).levels()
+    levels = part.blank(0.0).levels()
     return Ends(xy[:, 0] + 1j * xy[:, 1], (levels[0], levels[-1]), off)
 
 

@@ -28,7 +28,7 @@ _DEGREE = 7
 
 def body_outlines(body: Body, tolerance: float) -> tuple[Outline, ...]:
     """Every profile of a body as finished curves within ``tolerance`` mm, on screw surfaces over them too."""
-    body = _cut(body)
+    body = cut_for_faces(body)
     twisted = body.twisted_profiles()
     made = _chamfered_outlines(body, tolerance, twisted)
     for index, profile in enumerate(body.profiles):
@@ -68,7 +68,7 @@ def _chamfered_outlines(body: Body, tolerance: float, twisted: Container[int]) -
     return made
 
 
-def _cut(body: Body) -> Body:
+def cut_for_faces(body: Body) -> Body:
     """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
 
     def pieces(wall: Wall, whole: int, end: int) -> tuple[float, ...]:
@@ -81,7 +81,7 @@ def _cut(body: Body) -> Body:
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:
     """The faces of a body over the finished curves of its profiles."""
-    made = BodyFaces(_cut(body), outlines)
+    made = BodyFaces(cut_for_faces(body), outlines)
     for wall in made.body.walls:
         made.wall(wall)
     for cap in made.body.caps:

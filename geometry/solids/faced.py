@@ -51,7 +51,8 @@ class FacedBody(Record, dict=True):
     triangles (n, 3, 3) leave the walls, mm, bundle after bundle of its spline faces: its other surfaces are exact.
     ``own_ends``: its lowest and highest place and its greatest distance from the axis, mm, where the kind knows them.
     ``precision``: within which its edges lie on its faces and end at their vertices, mm. ``coarsest``: the greatest
-    tolerance for which its mesh has triangles of every face, mm.
+    tolerance for which its mesh has triangles of every face, mm. ``whole``: its walls tell every surface, and may
+    measure points up to ``sideways`` times as far off as they are.
     """
 
     within: Callable[[float], FacedSolid]
@@ -61,6 +62,8 @@ class FacedBody(Record, dict=True):
     own_ends: tuple[float, float, float] | None = None
     precision: float = PRECISION
     coarsest: float = math.inf
+    whole: bool = False
+    sideways: float = 1.0
     is_faced: ClassVar[Literal[True]] = True
 
     @cached_property
@@ -74,6 +77,8 @@ class FacedBody(Record, dict=True):
     @cached_property
     def surfaces(self) -> tuple[Measured, ...]:
         """Every exact surface once."""
+        if self.whole:
+            return self.walls
         found: dict[object, Measured] = {}
         # those that are no splines are exact however near these are
         solid = self._fine if self.own_ends is None else self.within(_ROUGH).geometry

@@ -14,11 +14,9 @@ from functools import lru_cache, partial
 import numpy as np
 
 from geometry.approximation.outline import spline_outline
-from geometry.approximation.tensor import clamped, greville
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
-from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.curves.hyperbola import Hyperbola
 from geometry.curves.line_arc import Line
@@ -43,13 +41,12 @@ from geometry.solids.faces import (
     loop_of,
     turned_over,
 )  # fmt: skip
+from geometry.solids.rims import NEAR, RIM_DEGREE, fitted, rim_across
 from geometry.solids.rings import UP, Ring, RingBuilder
 from geometry.solids.splines import SplineForm, involute_walls
 
 # what is one place, part of the size; samples of an arc where boundaries are held against each other
 _SAME, _SAMPLES = 1e-9, 33
-# of the curve in which a round end of a pocket meets its shaft: degree, pieces, part of the radius that is near enough
-_DEGREE, _PIECES, _NEAR, _CHECKS, _MARGIN = 7, (8, 16, 32, 64, 128), 1e-10, 1001, 1.2
 
 
 class Corner(Record):
@@ -392,39 +389,6 @@ def _check(pieces: Sequence[Piece]) -> None:
         raise ParameterError("points", None, "boundary_crosses_itself")
 
 
-def _fitted(curve: Callable[[Real], Real], off: Callable[[Real], Real], near: float) -> tuple[Real, Real, float]:
-    """A spline along a curve by shares of it, (n,) to (n, k): knots, poles and error, mm.
-
-    ``off``: how far points are off the surfaces that meet in it, mm.
-    """
-    for pieces in _PIECES:
-        knots = clamped(_DEGREE, np.linspace(0, 1, pieces + 1))
-        shares = greville(_DEGREE, knots)
-        poles = np.linalg.solve(basis_matrix(_DEGREE, knots, shares), curve(shares))
-        points = basis_matrix(_DEGREE, knots, np.linspace(0, 1, _CHECKS)) @ poles
-        error = _MARGIN * float(off(points).max())
-        if error <= near:
-            break
-    return knots, np.asarray(poles, dtype=float), error
-
-
-def _rim(half: float, radius: float) -> tuple[Real, Real, float]:
-    """The curve in which half a cylinder meets a larger one that it stands across: knots, poles and error, mm.
-
-    Poles (n, 3): along the larger one's circle, along its axis, and away from that.
-    """
-
-    def curve(shares: Real) -> Real:
-        along, up = half * np.cos(np.pi * shares), half * np.sin(np.pi * shares)
-        return np.column_stack([along, up, np.sqrt(radius**2 - along**2)])
-
-    def off(points: Real) -> Real:
-        x, z, y = points.T
-        return np.asarray(np.maximum(np.abs(np.hypot(x, z) - half), np.abs(np.hypot(x, y) - radius)))
-
-    return _fitted(curve, off, _NEAR * radius)
-
-
 def _hyperbola(flat: Pocket, piece: Piece, first: float, last: float) -> Hyperbola:
     """The curve in which a flat cuts a cone, between places across it: along the axis, and across the flat."""
     slope = (piece.end.imag - piece.start.imag) / (piece.end.real - piece.start.real)
@@ -559,7 +523,7 @@ class _Turned(RingBuilder):
 
     def teeth(self, spline: Splined) -> None:
         """The walls of a spline between its rings."""
-        outline = spline_outline(spline.outline(), self.tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
+        outline = spline_outline(spline.outline(), self.tolerance, degree=RIM_DEGREE, continuity=RIM_DEGREE - 1)
         self.error = max(self.error, outline.max_error)
         low, high = (self.ring(outline, z) for z in (spline.low, spline.high))
         self.swept(low, high, UP)
@@ -676,13 +640,13 @@ class _Turned(RingBuilder):
             z, y = points.T
             return np.abs(curve.centre.real + curve.along / flat.floor * np.hypot(flat.floor, y) - z)
 
-        knots, poles, error = _fitted(spatial, off, _NEAR * max(piece.start.real, piece.end.real))
+        knots, poles, error = fitted(spatial, off, NEAR * max(piece.start.real, piece.end.real))
         self.error = max(self.error, error)
         z, y = poles[1:-1].T
         places = flat.floor * out[0] + y[:, None] * across
         inner = self.add_points(places[:, 0] + 1j * places[:, 1], z)
         points = np.concatenate([self.points_of(one), inner, self.points_of(two)])
-        return self.add_edges(one, two, Spline(_DEGREE, knots, points[None]))
+        return self.add_edges(one, two, Spline(RIM_DEGREE, knots, points[None]))
 
     def _seam(self, piece: Piece) -> Straight | Circular:
         if piece.centre is None:
@@ -746,12 +710,12 @@ class _Turned(RingBuilder):
             wall: Plane | Cylinder = Plane(Frame(self.points_of(floor[k : k + 1]), normal, across if is_end else UP))
             if is_end and pocket.round_ends:
                 middle = at(np.zeros(1), pocket.floor, np.array([end]))
-                knots, rounded, error = _rim(half, radius)
+                knots, rounded, error = rim_across(half, radius)
                 self.error = max(self.error, error)
                 way_out = 1.0 if k == 1 else -1.0
                 inner = at(way_out * rounded[1:-1, 0], rounded[1:-1, 2], end + way_out * rounded[1:-1, 1])
                 poles = np.concatenate([self.points_of(rim[k : k + 1]), inner, self.points_of(rim[after : after + 1])])
-                below, above = Circular(Frame(middle, out, -way), half), Spline(_DEGREE, knots, poles[None])
+                below, above = Circular(Frame(middle, out, -way), half), Spline(RIM_DEGREE, knots, poles[None])
                 wall = Cylinder(Frame(middle, out, across), half)
             elif is_end:
                 above = Circular(Frame(self.on_axis(end), normal, out), radius)

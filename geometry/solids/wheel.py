@@ -15,6 +15,7 @@ from geometry.base.record import Record
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.plane.profile import Label, Profile, Region, circle
+from geometry.solids.cross_holes import CrossHole, check_cross_holes
 from geometry.solids.hub_holes import HubHoles, least_wall
 
 if TYPE_CHECKING:
@@ -47,11 +48,15 @@ class Web(Record):
 
 
 class Hub(Record):
-    """The hub: its diameter, and how far it stands out below and above the faces of the rim, mm."""
+    """The hub: its diameter, and how far it stands out below and above the faces of the rim, mm.
+
+    ``set_screws``: the holes across it, where it stands out farther.
+    """
 
     diameter: float
     below: float = 0.0
     above: float = 0.0
+    set_screws: tuple[CrossHole, ...] = ()
 
 
 class WheelShape(Record):
@@ -317,6 +322,11 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles, edge: 
         _between("web.rim_diameter", web.rim_diameter, core, (root_diameter, "root_circle"))
         _between("web.rim_diameter", web.rim_diameter, (outer, "holes"), (math.inf, ""))
     _check_heights(shape)
+    if hub is not None and hub.set_screws:
+        above, width = hub.above >= hub.below, shape.face_width
+        ends = (width, width + hub.above) if above else (0.0, -hub.below)
+        chamfer = shape.chamfer_above if above else shape.chamfer_below
+        check_cross_holes(hub.set_screws, holes.bore, ends, chamfer, least_wall(hub.diameter / 2))
     if not _leaves_faces(shape, root_diameter / 2, holes, 0.0, 0.0):
         # whatever stands beside a hub or a rim was refused above
         key = "holes" if holes.round_holes else "spokes" if holes.spokes else "bore_diameter"

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
+    from geometry.solids.cross_holes import CrossHole
     from geometry.solids.faced import FacedBody
     from geometry.solids.mass import Moments
     from geometry.solids.sketch import Sketch
@@ -134,6 +135,10 @@ class Kind(Generic[K, T]):
         from geometry.solids.body import plate
 
         return plate(self.section(keys, thing, offset).region, 0.0, self.height(keys, thing))
+
+    def cross_holes(self, keys: K, thing: T) -> tuple[CrossHole, ...]:
+        """Holes across the hub of its solid, which the solid itself, drawings and checks do without."""
+        return ()
 
     def stays(self, offset: float) -> None:
         """Refuse an offset of what is made as it is alone."""

@@ -120,6 +120,21 @@ class Part(Record, dict=True):
         return lru_cache(maxsize=2)(self._body)
 
     def _body(self, offset: float) -> Body | FacedBody:
+        holes, blank = self.made_by.cross_holes(self.keys, self.thing), self.blank(offset)
+        if not holes:
+            return blank
+        from geometry.solids.crossed import crossed
+
+        assert not blank.is_faced
+
+        return crossed(blank, [hole.moved(offset) for hole in holes])
+
+    @cached_property
+    def blank(self) -> Callable[[float], Body | FacedBody]:
+        """The solid without holes across its hub, as checks and drawings take it."""
+        return lru_cache(maxsize=2)(self._blank)
+
+    def _blank(self, offset: float) -> Body | FacedBody:
         self.made_by.stays(offset)
         return self.made_by.solid(self.keys, self.thing, offset)
 

@@ -10,6 +10,7 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import moved
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
+from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind
@@ -17,7 +18,7 @@ from parts.base.part_keys import MaterialKeys
 from parts.base.schema import replaced
 from parts.keys.holes import check_holes, check_shape, holes_of, wide_bore, wide_holes
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
-from parts.keys.wheel import HubbedKeys, shape_of
+from parts.keys.wheel import HubbedKeys, cross_holes, shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -105,6 +106,10 @@ class Turned(Kind[K, T]):
         outer, gaps = moved(partial(self.outline, thing), offset, "leaves_no_outline")
         found = (Finding("outline_trimmed", float(len(gaps)), offset),) if gaps else ()
         return OffsetRegion(Region(outer, holes.profiles(offset)), offset, found)
+
+    def cross_holes(self, keys: K, thing: T) -> tuple[CrossHole, ...]:
+        """For set screws."""
+        return cross_holes(self.body(keys, thing))
 
     def solid(self, keys: K, thing: T, offset: float) -> Body:
         """The wheel."""

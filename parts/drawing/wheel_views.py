@@ -23,6 +23,7 @@ from geometry.solids.keyways import depth_deviation
 from geometry.solids.splines import SplineBore, StraightJoint
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
+from parts.drawing.cross_holes import cut_across, hole_angles, hole_sizes, opened, seen_in_bore, seen_within
 from parts.drawing.extent import Sampled, crossings, farthest, reach, sampled, summits
 from parts.drawing.places import apart, circled, place_sizes
 from parts.drawing.revolved import Loop, below, block, closed, outlined, seen_edges
@@ -381,6 +382,11 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
             axes += [level(row, way * half.reference) for row in wheel.rows()]
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in (*edges, *spline.roots)]
+    strokes += [(VISIBLE, rim) for rim in seen_in_bore(shape.hub, wheel.turn)]
+    across = cut_across(shape.hub, holes.bore, wheel.turn)
+    strokes = opened(strokes, across)
+    hatched += [hole.loop() for hole in across]
+    axes += [hole.axis() for hole in across]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
     return View(
         tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes,
@@ -494,6 +500,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         if at.hub[1] > width or at.hub[0] < 0:
             edge = -shape.hub.diameter / 2
             found.append(Size("hub.length", complex(at.hub[0], edge), complex(at.hub[1], edge), "below"))
+        end = at.hub[shape.hub.above >= shape.hub.below]
+        found += hole_sizes(shape.hub, cut_across(shape.hub, bore, wheel.turn), end, subject)
         # of a hub on one side alone its length and the face width tell the rest
         if at.hub[0] < 0 and at.hub[1] > width:
             found.append(Size("hub.below", complex(at.hub[0], -shape.hub.diameter / 2), -1j * down, "below"))
@@ -599,8 +607,9 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
             text += f", {subject.words('spoke_corners', radius=radius)}"
         at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
-    sizes = apart_sizes(wheel.holes, turn, tip)
-    return View(tuple(strokes), (), axes, sizes, tuple(rounds), tuple(notes), from_right=True)
+    strokes += seen_within(shape.hub, wheel.holes.bore, turn)
+    sizes, angles = apart_sizes(wheel.holes, turn, tip), tuple(hole_angles(shape.hub, turn, subject))
+    return View(tuple(strokes), (), axes, sizes, tuple(rounds), tuple(notes), from_right=True, angles=angles)
 
 
 def pitch_arcs(radius: float, kept: Sequence[tuple[float, float]], turn: float) -> list[Arc]:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, Protocol, TypeVar
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
+from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import Holed
 from geometry.solids.wheel import Hub, Rim, Web, WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind
-from parts.keys.base import mm, part_mm
-from parts.keys.holes import HoledKeys, SpokesTable
+from parts.keys.base import degrees, mm, part_mm
+from parts.keys.holes import Direction, HoledKeys, SpokesTable
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.tooth import ToothSide
@@ -36,6 +39,29 @@ class HubTable(Struct, forbid_unknown_fields=True):
     above: Annotated[float, mm("how far the hub stands out above", least=0, most=10_000)] = 0.0
 
 
+_FROM_END = part_mm(
+    "from the end of the hub to their axes; default: the middle of what stands out, less its chamfer",
+    above=0,
+    example=4.0,
+)
+
+
+class SetScrewsTable(Struct, forbid_unknown_fields=True):
+    """Round holes across the hub, where it stands out, through to the bore: to be tapped, or for pins."""
+
+    diameter: Annotated[float, part_mm("diameter of each hole: 2.5 for M3, 3.3 for M4", above=0, example=2.5)]
+    count: Annotated[int, Meta(ge=1, le=12, description="number of holes")] = 1
+    angle_deg: Direction = 90.0
+    spacing_deg: Annotated[float, degrees("from each to the next", least=-360, most=360)] = 90.0
+    from_end: Annotated[float, _FROM_END] | None = None
+
+
+class ScrewedHubTable(HubTable, forbid_unknown_fields=True):
+    """The hub about the bore, with holes for set screws."""
+
+    set_screws: SetScrewsTable | None = None
+
+
 class FaceChamferTable(Struct, forbid_unknown_fields=True):
     """45 degree chamfers along every edge of the end faces."""
 
@@ -49,7 +75,7 @@ FaceChamfer = Annotated[float, mm("45 degree chamfer along every edge of both en
 class HubbedKeys(HoledKeys, kw_only=True):
     """Keys of a disk: and with a hub and chamfers."""
 
-    hub: HubTable | None = None
+    hub: ScrewedHubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
 
 
@@ -64,8 +90,11 @@ class Bodied(Protocol):
     """Keys of a part with a hub and chamfers; those of wheels have a ``web`` too."""
 
     face_width: float
-    hub: HubTable | None
     face_chamfer: float | FaceChamferTable
+
+    @property
+    def hub(self) -> HubTable | None:
+        """The hub about the bore."""
 
 
 def shape_of(keys: Bodied) -> WheelShape:
@@ -86,10 +115,29 @@ def wheel_shape(
     return WheelShape(
         face_width,
         None if web is None else Web(web.thickness, web.rim_diameter, web.shift),
-        None if hub is None else Hub(hub.diameter, hub.below, hub.above),
+        None if hub is None else Hub(hub.diameter, hub.below, hub.above, _set_screws(face_width, hub, both)),
         both.below,
         both.above,
     )
+
+
+def cross_holes(shape: WheelShape) -> tuple[CrossHole, ...]:
+    """Those across the hub of a wheel."""
+    return () if shape.hub is None else shape.hub.set_screws
+
+
+def _set_screws(face_width: float, hub: HubTable, chamfers: FaceChamferTable) -> tuple[CrossHole, ...]:
+    """The holes across a hub, where it stands out farther."""
+    table = hub.set_screws if isinstance(hub, ScrewedHubTable) else None
+    if table is None:
+        return ()
+    length, chamfer = (hub.above, chamfers.above) if hub.above >= hub.below else (hub.below, chamfers.below)
+    if not length:
+        raise ParameterError("hub.set_screws", None, "set_screws_in_no_hub", Nearest(None))
+    inset = (length + chamfer) / 2 if table.from_end is None else table.from_end
+    height = face_width + length - inset if hub.above >= hub.below else inset - length
+    angles = (math.radians(table.angle_deg + k * table.spacing_deg) for k in range(table.count))
+    return tuple(CrossHole(height, table.diameter / 2, angle) for angle in angles)
 
 
 K = TypeVar("K", bound=HubbedKeys)
@@ -124,6 +172,10 @@ class WheelKind(Kind[K, T]):
     def rim(self, thing: T) -> Rim | None:
         """Teeth that are no one section from face to face; None: they are."""
         return None
+
+    def cross_holes(self, keys: K, thing: T) -> tuple[CrossHole, ...]:
+        """For set screws."""
+        return cross_holes(self.shape(keys, thing))
 
     def solid(self, keys: K, thing: T, offset: float) -> Body:
         """The wheel with its web, hub and chamfers."""

@@ -351,7 +351,7 @@ class _Order:
 
 def _box(instance: Instance, part: Part) -> Real:
     """Between which corners an instance lies, (2, 3), mm."""
-    body = part.body(0.0)
+    body = part.blank(0.0)
     low, high, reach = body.levels()[0], body.levels()[-1], body.section_reach()
     axis, at = np.array(instance.axis), np.array(instance.at)
     wide = reach * np.sqrt(np.maximum(1 - axis**2, 0.0))

@@ -402,7 +402,7 @@ def check_solids(parts: Mapping[str, Part], source: str) -> None:
     """
     for part in parts.values():
         try:
-            part.body(0.0)
+            part.blank(0.0)
         except ParameterError as refusal:
             raise solid_refused(part, refusal, source) from refusal
 

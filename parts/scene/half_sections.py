@@ -81,7 +81,7 @@ class Sectioned:
     """The sections of a part: half of one that is turned, else those of its layers; none of what has other faces."""
 
     def __init__(self, part: Part) -> None:
-        self.thing, self.body, self.teeth = part.thing, part.body(0.0), 0.0
+        self.thing, self.body, self.teeth = part.thing, part.blank(0.0), 0.0
         upright = isinstance(self.body, Body) and all(self.body.is_upright(wall) for wall in self.body.walls)
         # half a section that has all of it within, and the round holes that run through the whole
         self.half: Complex | None = None

@@ -124,7 +124,7 @@ def by_contact(placing: Placing, parts: dict[str, Part]) -> set[frozenset[str]]:
 
 def _box(instance: Instance, part: Part) -> tuple[complex, float, float, float]:
     """Centre, reach, lower and upper end of an instance, mm."""
-    body = part.body(0.0)
+    body = part.blank(0.0)
     reach = body.section_reach()
     if instance.axis != UPWARDS:
         # a ball about it
@@ -169,11 +169,11 @@ def inset_of(reach: float, *, upright: bool) -> float:
 
 
 def _inner_solid(part: Part) -> Any:
-    body = part.body(0.0)
+    body = part.blank(0.0)
     inset = inset_of(body.section_reach(), upright=is_slabs(body))
     for share in () if isinstance(body, FacedBody) else _INSETS:
         with suppress(GeometryError):
-            inner = part.body(-share * inset)
+            inner = part.blank(-share * inset)
             return meshed_solid(body_mesh(inner, mesh_outlines(inner, _SHARE * share * inset, 0.0)))
     # what is told by its faces, or has a land that no such boundary leaves
     mesh = body_mesh(body, mesh_outlines(body, _SHARE * inset, 0.0))

@@ -48,7 +48,7 @@ class Shape:
     """
 
     def __init__(self, part: Part) -> None:
-        self.part, body = part, part.body(0.0)
+        self.part, body = part, part.blank(0.0)
         self.low, self.high = body.levels()[0], body.levels()[-1]
         self.reach, self.walls = _outline(body)
 
@@ -112,7 +112,7 @@ class Shape:
     @property
     def is_slabs(self) -> bool:
         """Whether it is upright slabs: no screws, chamfers or curved faces."""
-        return is_slabs(self.part.body(0.0))
+        return is_slabs(self.part.blank(0.0))
 
     @cached_property
     def slabs(self) -> tuple[Slab, ...] | None:
@@ -122,7 +122,7 @@ class Shape:
         if not self.is_slabs:
             return None
         found = []
-        for low, high in pairwise(self.part.body(0.0).levels()):
+        for low, high in pairwise(self.part.blank(0.0).levels()):
             loops = [np.asarray(points) for points in self.solid.slice((low + high) / 2).to_polygons()]
             rings = [shapely.Polygon(points) for points in loops]
             turns = [shapely.is_ccw(ring.exterior) for ring in rings]

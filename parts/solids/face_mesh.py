@@ -117,13 +117,14 @@ def face_mesh(solid: Solid, tolerance: float, proof: Proof | None = None) -> Fac
 
 def faced_mesh(body: FacedBody, tolerance: float) -> FaceMesh:
     """A closed mesh within ``tolerance`` mm of a body told by its faces; splines take their share of it."""
-    target = min(tolerance, body.coarsest)
+    target = min(tolerance, body.coarsest) / body.sideways
     faces = body.within(_SPLINES * target)
     if body.proof is not None:
         return face_mesh(faces.geometry, target, body.proof)
     made = face_mesh(faces.geometry, target - faces.max_error)
     bound: Bound = "sampled" if "sampled" in (made.bound, faces.bound) else made.bound
-    return replace(made, max_error=made.max_error + faces.max_error, bound=bound, tolerance=tolerance)
+    error = body.sideways * (made.max_error + faces.max_error)
+    return replace(made, max_error=error, bound=bound, tolerance=tolerance)
 
 
 class _Chain(Record, eq=False):

@@ -14,6 +14,7 @@ from geometry.base.nearest import moved
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
+from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
@@ -43,7 +44,7 @@ from parts.keys.cam import (
     turn,
 )
 from parts.keys.law import with_own_laws
-from parts.keys.wheel import shape_of
+from parts.keys.wheel import cross_holes, shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -272,6 +273,10 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
     def section(self, keys: GrooveCamSpec, thing: GrooveDisk, offset: float) -> OffsetRegion:
         """The walls are marks on the disk."""
         return groove_section(thing, offset)
+
+    def cross_holes(self, keys: GrooveCamSpec, thing: GrooveDisk) -> tuple[CrossHole, ...]:
+        """For set screws."""
+        return cross_holes(thing.shape)
 
     def solid(self, keys: GrooveCamSpec, thing: GrooveDisk, offset: float) -> Body:
         """The wheel with its groove."""

@@ -34,7 +34,7 @@ from parts.keys.holes import (
     wide_holes,
 )
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
-from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, ScrewedHubTable, wheel_shape
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -67,7 +67,7 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
     timing_mark: TimingMarkTable | None = None
-    hub: HubTable | None = None
+    hub: ScrewedHubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
 
 

@@ -25,6 +25,7 @@ from geometry.gears.teeth.limits import checked_gear, exists, findings, root_for
 from geometry.gears.teeth.offset import chamfered_outline, gear_region, moved_outline
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
+from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
@@ -46,7 +47,7 @@ from parts.keys.helix import (
 )
 from parts.keys.holes import BoreTable, HolesTable, SpokesTable, bore_of, hub_holes, spoked, with_remedy
 from parts.keys.sector import GearSectorTable, sector_of
-from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, shape_of
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, ScrewedHubTable, WebTable, cross_holes, shape_of
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -99,7 +100,7 @@ class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     holes: HolesTable | list[HolesTable] | None = None
     spokes: SpokesTable | None = None
     web: WebTable | None = None
-    hub: HubTable | None = None
+    hub: ScrewedHubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
     tooth_mark: ToothMarkTable | None = None
     sector: GearSectorTable | None = None
@@ -183,6 +184,10 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
     def section(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> OffsetRegion:
         """The exact section, moved."""
         return marked(gear_region(thing, offset), _marks(keys, thing))
+
+    def cross_holes(self, keys: SpurGearSpec, thing: SpurGear) -> tuple[CrossHole, ...]:
+        """For set screws."""
+        return cross_holes(shape_of(keys))
 
     def solid(self, keys: SpurGearSpec, thing: SpurGear, offset: float) -> Body:
         """The wheel with its web, hub and chamfers."""

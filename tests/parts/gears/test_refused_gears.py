@@ -16,7 +16,20 @@ SPUR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23}
 RING = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 50}
 RACK = {"kind": "rack", "module": 2.0, "number_of_teeth": 8}
 HELIX = {"helix_angle_deg": 20.0}
+SCREWED = {**SPUR, "bore_diameter": 5.0, "face_chamfer": 0.5}
+HUB = {"diameter": 14.0, "above": 7.0}
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
+    "screws and hub": ({**SCREWED, "hub": {**HUB, "set_screws": {"diameter": 8.0}}}, "hub.set_screws.diameter",
+                       "set_screws_wider_than_hub"),
+    "screws and bore": ({**SCREWED, "hub": {**HUB, "set_screws": {"diameter": 4.9}}}, "hub.set_screws.diameter",
+                        "set_screws_wider_than_bore"),
+    "screws and flat": (
+        {**SCREWED, "bore_diameter": 0.0, "bore": {"shape": "D", "diameter": 5.0, "flat": 4.5},
+         "hub": {**HUB, "set_screws": {"diameter": 3.2}}}, "hub.set_screws.diameter", "set_screws_wider_than_bore"),
+    "screws and end": ({**SCREWED, "hub": {**HUB, "set_screws": {"diameter": 2.5, "from_end": 1.0}}},
+                       "hub.set_screws.from_end", "set_screws_out_of_hub"),
+    "screws and face": ({**SCREWED, "hub": {"diameter": 14.0, "below": 7.0, "set_screws": {"diameter": 2.5,
+                        "from_end": 6.0}}}, "hub.set_screws.from_end", "set_screws_out_of_hub"),
     "pointed": ({**SPUR, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient", "tooth_pointed"),
     "pointed, helical": ({**SPUR, **HELIX, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient",
                          "tooth_pointed"),

@@ -1,0 +1,99 @@
+"""Files of wheels with holes across their hubs: against trimesh's topology and shapely's sections; wrong ones fail."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+from manifold3d import Manifold, Mesh
+
+from tests.exporters.making import Keys, read_report, run, write_scene
+
+SCREWS: Keys = {"diameter": 2.5, "count": 2, "angle_deg": 90.0, "spacing_deg": 100.0}
+HUB: Keys = {"diameter": 12.0, "above": 7.0, "set_screws": SCREWS}
+GEAR: Keys = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 17, "face_width": 4.0}
+PARTS: dict[str, Keys] = {
+    "pinion": GEAR | {"bore_diameter": 5.0, "face_chamfer": 0.3, "hub": HUB},
+    "helical": GEAR | {"bore": {"shape": "D", "diameter": 5.0, "flat": 4.5}, "helix_angle_deg": 20.0,
+                       "hub": HUB | {"above": 0.0, "below": 6.0, "set_screws": SCREWS | {"count": 1}}},
+    "pulley": {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 20, "face_width": 7.0, "bore_diameter": 5.0,
+               "flanges": {"diameter": 16.0}, "hub": HUB | {"diameter": 15.0}},
+    "disk": {"kind": "ratchet_wheel", "module": 3.0, "number_of_teeth": 12, "face_width": 4.0,
+             "bore": {"shape": "hexagon", "across_flats": 6.0},
+             "hub": HUB | {"set_screws": SCREWS | {"spacing_deg": 120.0}}},
+}  # fmt: skip
+EXPORTS: list[Keys] = [{"format": "stl", "tolerance": 0.02}, {"format": "step"}, {"format": "svg", "purpose": "part"},
+                       {"format": "stl", "tolerance": 0.02, "name": "wide", "offset": -0.1}]  # fmt: skip
+# heights of the holes' axes
+LEVELS = {"pinion": 4 + 7 - 3.65, "helical": -3.0, "pulley": 9 + 3.5, "disk": 4 + 3.5}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All of them, built once."""
+    place = tmp_path_factory.mktemp("screws")
+    assert run("build", write_scene(place / "s.toml", PARTS, EXPORTS), "--out", place / "out") == 0
+    return place / "out" / "s"
+
+
+def strips(name: str, radius: float) -> Any:
+    """What the holes take of the section through their axes."""
+    table = PARTS[name]["hub"]["set_screws"]
+    found = []
+    for k in range(table["count"]):
+        way = np.exp(1j * math.radians(table["angle_deg"] + k * table["spacing_deg"]))
+        corners = [way * complex(x, y) for x, y in ((0, -radius), (20, -radius), (20, radius), (0, radius))]
+        found.append(shapely.Polygon([(c.real, c.imag) for c in corners]))
+    return shapely.union_all(found)
+
+
+def bore(name: str, widened: float) -> Any:
+    """The section of a bore."""
+    if name == "disk":
+        corners = np.exp(1j * np.pi / 3 * np.arange(6)) * (3 + widened) / math.cos(math.pi / 6)
+        return shapely.Polygon(np.column_stack([corners.real, corners.imag]))
+    found = shapely.Point(0, 0).buffer(2.5 + widened, 256)
+    return found & shapely.box(-9, -9, 9, 2 + widened) if name == "helical" else found
+
+
+@pytest.mark.parametrize("name", PARTS)
+@pytest.mark.parametrize(("stem", "offset"), [(".print", 0.0), (".wide", -0.1)])
+def test_meshes_have_the_holes_where_they_are_told(folder: Path, name: str, stem: str, offset: float) -> None:
+    mesh = trimesh.load(folder / f"{name}{stem}.stl")
+    count = PARTS[name]["hub"]["set_screws"]["count"]
+    assert mesh.is_watertight
+    # the bore is one handle, each hole one more
+    assert mesh.euler_number == 2 - 2 * (1 + count)
+    # what stands there is the ring of the hub between its holes, about the bore
+    solid = Manifold(Mesh(np.asarray(mesh.vertices, np.float32), np.asarray(mesh.faces, np.uint32)))
+    made = shapely.union_all([shapely.Polygon(loop) for loop in solid.slice(LEVELS[name]).to_polygons()])
+    ring = shapely.Point(0, 0).buffer(PARTS[name]["hub"]["diameter"] / 2 + offset, 256)
+    want = ring.difference(strips(name, 1.25 - offset)).difference(bore(name, -offset))
+    assert shapely.symmetric_difference(want, made).area < 0.02 * want.length
+
+
+def test_what_is_told_of_the_files_is_the_parts_own(folder: Path) -> None:
+    told = read_report(folder)
+    for name in PARTS:
+        volume = told["parts"][name]["volume"]
+        mesh = trimesh.load(folder / f"{name}.print.stl")
+        assert mesh.volume == pytest.approx(volume, rel=4e-3)
+    for file in told["files"]:
+        assert file["max_error"] <= file["tolerance"]
+
+
+@pytest.mark.parametrize("change", [{"diameter": 2.6}, {"angle_deg": 91.0}, {"from_end": 3.0}, {"count": 1}])
+@pytest.mark.parametrize("ending", ["print.stl", "step"])
+def test_files_of_other_holes_fail(folder: Path, tmp_path: Path, change: Keys, ending: str) -> None:
+    file, report = (folder / name for name in (f"pinion.{ending}", "report.json"))
+    told = json.loads(report.read_text("utf-8"))
+    told["scene"]["parts"]["pinion"]["hub"]["set_screws"] |= change
+    (tmp_path / file.name).write_bytes(file.read_bytes())
+    (tmp_path / "report.json").write_text(json.dumps(told), "utf-8")
+    assert run("verify", tmp_path / file.name) == 1
