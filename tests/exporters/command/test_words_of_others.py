@@ -56,6 +56,16 @@ def test_a_number_of_another_program_is_told_as_ours(
     assert run("check", write_scene(tmp_path / "s.toml", {"g": mended}, [{"format": "stl"}])) == 0
 
 
+def test_the_length_of_a_thread_leads_from_the_page_to_the_part_and_back(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Who took the page's word for the part was sent to the power module."""
+    worm = {key: value for key, value in _WORM.items() if key != "thread_length"}
+    assert "did you mean thread_length?" in told(tmp_path, capsys, worm | {"worm_length": 30.0})
+    assert run("calc", "worm", "module=2", "number_of_teeth=30", "thread_length=30") == 2
+    assert "did you mean worm_length?" in capsys.readouterr().err
+
+
 def test_a_calculation_tells_it_too(capsys: pytest.CaptureFixture[str]) -> None:
     pair = ("calc", "gear-pair", "first.number_of_teeth=12", "second.number_of_teeth=24")
     assert run(*pair, "diametral_pitch=8") == 2
