@@ -13,6 +13,8 @@ from functools import lru_cache, partial
 import numpy as np
 
 from geometry.approximation.outline import Outline
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
@@ -56,16 +58,41 @@ def walls_at(body: Body, hole: CrossHole) -> tuple[Wall, Wall]:
     return outer, inner
 
 
-def mouths_of(body: Body, hole: CrossHole) -> list[Mouth]:
-    """Those of a hole in hub and bore."""
+def mouths_of(body: Body, hole: CrossHole) -> list[Mouth | None]:
+    """Those of a hole in hub and bore; None where it opens in no one face."""
     found = []
     for wall in walls_at(body, hole):
         profile = body.loop_profile(wall.lower)
         segments = [s.curve for s in profile.segments()]
-        mouth = mouth_in([open_circle(profile.reach(), hole.angle)] if _is_circle(profile) else segments, (0.0,), hole)
-        assert mouth is not None
-        found.append(mouth)
+        whole = [open_circle(profile.reach(), hole.angle)] if _is_circle(profile) else segments
+        found.append(mouth_in(whole, (0.0,), hole))
     return found
+
+
+def has_room(body: Body, holes: Sequence[CrossHole]) -> bool:
+    """Whether hub and bore stand upright beside all of each hole, which opens in one face of either."""
+    return all(
+        low < hole.height - hole.radius and hole.height + hole.radius < high and None not in mouths_of(body, hole)
+        for hole in holes
+        for low, high in map(body.height, walls_at(body, hole))
+    )
+
+
+def crossed_at(blank: Callable[[float], Body], holes: Sequence[CrossHole], offset: float) -> FacedBody:
+    """The body with holes, every boundary moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    ParameterError
+        ``offset``: it leaves the holes no room, or nothing of them.
+    """
+
+    def fits(moved: float) -> bool:
+        return has_room(blank(moved), [hole.moved(moved) for hole in holes])
+
+    if not fits(offset):
+        raise ParameterError("offset", offset, "set_screws_lose_hub", partial(nearest, fits, offset, 0.0))
+    return crossed(blank(offset), [hole.moved(offset) for hole in holes])
 
 
 def crossed(body: Body, holes: Sequence[CrossHole]) -> FacedBody:
@@ -270,7 +297,7 @@ def _moments(body: Body, holes: Sequence[CrossHole]) -> Moments:
     turns = math.pi * (np.arange(_AROUND) / _AROUND - 0.5)
     for hole in holes:
         across, high = hole.radius * np.sin(turns), 2 * hole.radius * np.cos(turns)
-        outer, inner = (mouth.rise(across) for mouth in mouths_of(body, hole))
+        outer, inner = (mouth.rise(across) for mouth in mouths_of(body, hole) if mouth is not None)
         weight = high * hole.radius * np.cos(turns) * math.pi / _AROUND
         length, square, cube = ((outer**k - inner**k) / k for k in (1, 2, 3))
         lost = float(weight @ length)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
@@ -120,14 +120,12 @@ class Part(Record, dict=True):
         return lru_cache(maxsize=2)(self._body)
 
     def _body(self, offset: float) -> Body | FacedBody:
-        holes, blank = self.made_by.cross_holes(self.keys, self.thing), self.blank(offset)
+        holes = self.made_by.cross_holes(self.keys, self.thing)
         if not holes:
-            return blank
-        from geometry.solids.crossed import crossed
+            return self.blank(offset)
+        from geometry.solids.crossed import crossed_at
 
-        assert not blank.is_faced
-
-        return crossed(blank, [hole.moved(offset) for hole in holes])
+        return crossed_at(cast("Callable[[float], Body]", self.blank), holes, offset)
 
     @cached_property
     def blank(self) -> Callable[[float], Body | FacedBody]:

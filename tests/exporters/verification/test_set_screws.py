@@ -97,3 +97,15 @@ def test_files_of_other_holes_fail(folder: Path, tmp_path: Path, change: Keys, e
     (tmp_path / file.name).write_bytes(file.read_bytes())
     (tmp_path / "report.json").write_text(json.dumps(told), "utf-8")
     assert run("verify", tmp_path / file.name) == 1
+
+
+@pytest.mark.parametrize(("offset", "builds"), [(-0.3, False), (-0.1499, True), (-0.1501, False), (1.3, False)])
+def test_an_offset_that_leaves_no_hub_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], offset: float, builds: bool
+) -> None:
+    """The hole's edge stands 0.15 mm from the end of the hub."""
+    hub = {"diameter": 14.0, "above": 7.0, "set_screws": {"diameter": 2.5, "from_end": 1.4}}
+    keys = GEAR | {"bore": {"shape": "D", "diameter": 5.0, "flat": 4.5}, "number_of_teeth": 24, "hub": hub}
+    scene = write_scene(tmp_path / "s.toml", {"g": keys}, [{"format": "stl", "offset": offset, "tolerance": 0.05}])
+    assert (run("build", scene, "--out", tmp_path / "out") == 0) == builds
+    assert ("offset" in capsys.readouterr().err) != builds
