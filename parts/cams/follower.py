@@ -10,7 +10,6 @@ from msgspec import Meta, field
 from msgspec.structs import fields, replace
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
-from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
@@ -21,15 +20,13 @@ from parts.base.schema import nearest_key
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
 from parts.cams.wheel import Turned
 from parts.keys.base import MOST_LENGTH, degrees, part_mm
-from parts.keys.holes import BoredKeys, check_shape, holes_of, wide_bore
+from parts.keys.holes import BoredKeys, check_shape, holes_of, thin_wall, wide_bore
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.contact.outlines import FollowerEnd
     from geometry.solids.plate import Edge, PlateOutline
 
-# mm: a thinner wall of a roller breaks, cut or printed
-_THIN = 1.0
 # sizes of which a lesser one is tried where an outline is none, and shares that are tried
 _STEM_SIZES = ("corner_radius", "plate_thickness")
 _ARM_SIZES = ("tip_height", "width", "boss_diameter")
@@ -282,10 +279,9 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
 
     def report(self, keys: RollerSpec, thing: FollowerEnd) -> Report:
         """Its diameter, and a wall about its bore that breaks."""
-        wall = keys.diameter / 2 - self.holes(keys, thing).bore_reach
-        thin = keys.bore_diameter and wall < _THIN
-        findings = (Finding("thin_roller_wall", wall, _THIN),) if thin else ()
-        return Report(findings=findings, circles={"roller_diameter": keys.diameter})
+        return Report(
+            findings=thin_wall(thing.radius, self.holes(keys, thing)), circles={"roller_diameter": keys.diameter}
+        )
 
 
 FOLLOWER, FOLLOWER_ARM, ROLLER = Follower(), FollowerArm(), Roller()

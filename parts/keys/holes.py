@@ -11,6 +11,7 @@ from msgspec import Meta, Struct
 from msgspec.structs import replace
 
 from geometry.base.errors import LateError, Nearest, ParameterError, limit
+from geometry.base.findings import Finding, short_of
 from geometry.base.nearest import kept, nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 K = TypeVar("K", bound=Struct)
 # part of the room for a bore that it takes at most
 _WITHIN = 0.9999
+# mm: a thinner wall of a roller or an eccentric breaks, cut or printed
+_THIN = 1.0
 Direction = Annotated[float, degrees("direction of the first one", least=-360, most=360)]
 Diameter = Annotated[float, part_mm("diameter of the bore", above=0, example=8.0)]
 AcrossFlats = Annotated[float, part_mm("from a flat to the opposite one", above=0, example=7.0)]
@@ -414,3 +417,8 @@ def check_holes(
         holes_of(keys).check(root_radius)
     except ParameterError as refusal:
         raise with_remedy(refusal, keys, fits) from refusal
+
+
+def thin_wall(radius: float, holes: HubHoles) -> tuple[Finding, ...]:
+    """The remark on a wall between a bore and a circle about its axis that breaks; ``radius`` of that circle, mm."""
+    return () if holes.bore is None else short_of("thin_roller_wall", radius - holes.bore_reach, _THIN)

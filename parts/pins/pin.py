@@ -10,7 +10,7 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, mm, part_mm
-from parts.keys.holes import BoredKeys, holes_of
+from parts.keys.holes import BoredKeys, holes_of, thin_wall
 from parts.keys.pins import RoundPinKind, check_holes, most_of
 
 if TYPE_CHECKING:
@@ -86,5 +86,6 @@ class Eccentric(RoundPinKind[EccentricSpec, "RoundDisc"]):
         return RoundDisc(radius, keys.eccentricity, holes)
 
     def report(self, keys: EccentricSpec, thing: RoundDisc) -> Report:
-        """Its sizes."""
-        return Report(quantities={"diameter": keys.diameter, "eccentricity": keys.eccentricity})
+        """Its sizes, and a wall about its bore that breaks."""
+        found = thin_wall(keys.diameter / 2 - keys.eccentricity, thing.holes)
+        return Report(quantities={"diameter": keys.diameter, "eccentricity": keys.eccentricity}, findings=found)

@@ -269,6 +269,10 @@ def test_parts_around_pins_report_their_sizes() -> None:
     assert ring.quantities == {"number_of_pins": 12.0, "pin_diameter": 8.0}
     assert part_of(PIN).quantities == {"diameter": 8.0}
     assert part_of(ECCENTRIC).quantities == {"diameter": 32.0, "eccentricity": 4.0}
+    assert part_of(ECCENTRIC).findings == ()
+    # in a bearing of 8 mm about the shaft of 5 mm of a motor; it was made without a word
+    thin = part_of(ECCENTRIC | {"diameter": 8.0, "eccentricity": 1.0, "bore_diameter": 5.0})
+    assert [(one.code, one.value, one.limit) for one in thin.findings] == [("thin_roller_wall", 0.5, 1.0)]
 
 
 @pytest.mark.parametrize(
