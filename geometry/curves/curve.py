@@ -228,6 +228,12 @@ class Reversed(Image, Record):
     base: Curve
     bends = -1
 
+    @property
+    def family(self) -> object:
+        """That of the curve itself, the other way."""
+        own = getattr(self.base, "family", None)
+        return own and (Reversed, own)
+
     def joined(self, after: Curve) -> Curve | None:
         whole = after.base.joined(self.base) if isinstance(after, Reversed) else None
         return None if whole is None else Reversed(whole)

@@ -17,7 +17,7 @@ from typing import get_args
 import numpy as np
 
 from geometry.approximation.outline import CadCurve
-from geometry.approximation.splines import fit_spline
+from geometry.approximation.splines import SplineFit, fit_spline
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
@@ -424,6 +424,8 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
     """
     done: dict[Curve, BSpline] = {}
     shapes: dict[Curve, tuple[BSpline, Placement2]] = {}
+    # the latest of each kind of curves that differ little from one to the next
+    alike: dict[object, SplineFit] = {}
     for curve in curves:
         if isinstance(curve, Arc | Line):
             continue
@@ -433,7 +435,10 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
             spline, place = found
             done[curve] = spline.placed(curve.placement @ place.inverse())
         else:
-            fit = fit_spline(curve, tolerance / scale, degree=3, continuity=2)
+            family = getattr(curve, "family", None)
+            fit = fit_spline(curve, tolerance / scale, degree=3, continuity=2, like=alike.get(family))
+            if family is not None:
+                alike[family] = fit
             canvas.max_error = max(canvas.max_error, fit.max_error * scale)
             canvas.sampled = canvas.sampled or fit.bound == "sampled"
             done[curve] = fit.spline

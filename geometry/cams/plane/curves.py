@@ -36,6 +36,8 @@ from geometry.laws.stack import PieceStack
 
 # pieces that are shorter have no ends of their own, mm: the coarsest files have six decimals
 _LEAST_LENGTH = 2e-6
+# decimals to which spans of equal phases are as long as each other, and S and S' at their ends
+_ALIKE_DIGITS = 9
 
 
 class Guided(Protocol):
@@ -100,6 +102,12 @@ class CamSpan(BoundedSpan):
         if not isinstance(self.lift, PieceStack):
             return super().knots
         return self.lift.knots[(self.lift.knots > self.start) & (self.lift.knots < self.end)]
+
+    @property
+    def family(self) -> object:
+        """Equal phases make one curve, turned: spans of one length, with the same S and S' at their ends."""
+        ends = [*self.domain, *np.concatenate(self.lift.values(np.array(self.domain), 1)).tolist()]
+        return (type(self), self.distance, *(round(x, _ALIKE_DIGITS) for x in (ends[1] - ends[0], *ends[2:])))
 
     def joined(self, after: Curve) -> Curve | None:
         spline = isinstance(self.lift, PieceStack) and isinstance(after, CamSpan)
