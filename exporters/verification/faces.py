@@ -15,7 +15,7 @@ from exporters.formats.read_step import ReadSolid
 from exporters.formats.readback import ReadMesh
 from exporters.verification.area import told_verdict
 from exporters.verification.samples import edge_points, inner_points
-from exporters.verification.topology import doubled_areas, edge_lengths, of_each, topology_failures, volumes_under
+from exporters.verification.topology import areas, edge_lengths, of_each, topology_failures, volume_in
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
 from geometry.curves.curve import Flags, Indices, Real
 from parts.base.texts import N_, unless
@@ -41,14 +41,13 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
     failures = topology_failures(mesh)
     if failures:
         return Verdict(count, tuple(failures))
-    sizes, under = (of_each(measure, mesh, mesh.triangles) for measure in (doubled_areas, volumes_under))
-    volume = float(under.sum() / 6)
+    sizes, volume = areas(mesh), volume_in(mesh)
     deviation, lone = mesh_deviation(mesh, body)
     exact = body.moments.volume
     reach = body.reach()
     failures += deviation_failures(deviation, declared, tolerance, reach)
     failures += unless(not lone, "{count} faces of the part have no triangle", count=lone)
-    bound = declared * float(sizes.sum()) / 2 + 1e-9 * exact
+    bound = declared * float(sizes.sum()) + 1e-9 * exact
     told = N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
     failures += unless(abs(volume - exact) <= bound, told, volume=volume, exact=exact)
     measured = count | {
@@ -56,7 +55,7 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
         "volume_error": volume / exact - 1,
         "max_deviation": deviation,
         "shortest_edge": float(of_each(edge_lengths, mesh, mesh.triangles).min()),
-        "least_triangle_area": float(sizes.min() / 2),
+        "least_triangle_area": float(sizes.min()),
     }
     return Verdict(measured, tuple(failures))
 

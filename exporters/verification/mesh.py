@@ -9,15 +9,7 @@ import numpy as np
 from exporters.formats.readback import Loop, ReadMesh
 from exporters.verification.chamfers import chamfer_distances, slice_points
 from exporters.verification.outlines import verify_loops
-from exporters.verification.topology import (
-    Triangles,
-    chains,
-    doubled_areas,
-    doubled_normals,
-    of_each,
-    topology_failures,
-    volumes_under,
-)
+from exporters.verification.topology import Triangles, areas, chains, doubled_normals, topology_failures, volume_in
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.base.distinct import distinct
 from geometry.curves.curve import Flags, Real
@@ -40,7 +32,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     failures = topology_failures(mesh)
     if failures:
         return Verdict(count, tuple(failures))
-    measured = count | {"volume": float(of_each(volumes_under, mesh, mesh.triangles).sum() / 6)}
+    measured = count | {"volume": volume_in(mesh)}
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
     off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
@@ -65,7 +57,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         "volume_error": volume / exact - 1,
         "max_deviation": worst,
         "shortest_edge": min(edges),
-        "least_triangle_area": float(of_each(doubled_areas, mesh, mesh.triangles).min() / 2),
+        "least_triangle_area": float(areas(mesh).min()),
     }
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 

@@ -24,14 +24,15 @@ def of_each(measure: Callable[[Real], Real], mesh: ReadMesh, triangles: Triangle
     return np.concatenate([measure(mesh.vertices[block]) for block in blocks])
 
 
-def doubled_areas(corners: Real) -> Real:
-    """Twice the area of each triangle, (n,)."""
-    return np.asarray(np.linalg.norm(doubled_normals(corners), axis=1))
+def areas(mesh: ReadMesh) -> Real:
+    """Of each triangle, mm^2, (n,)."""
+    return of_each(lambda corners: np.linalg.norm(doubled_normals(corners), axis=1) / 2, mesh, mesh.triangles)
 
 
-def volumes_under(corners: Real) -> Real:
-    """Six times the volume between each triangle and the origin, (n,)."""
-    return np.asarray(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)))
+def volume_in(mesh: ReadMesh) -> float:
+    """The volume within a closed mesh, mm^3."""
+    under = of_each(lambda at: np.einsum("ij,ij->i", at[:, 0], doubled_normals(at)), mesh, mesh.triangles)
+    return float(under.sum() / 6)
 
 
 def doubled_normals(corners: Real) -> Real:
@@ -49,7 +50,7 @@ def topology_failures(mesh: ReadMesh) -> list[str]:
     t = mesh.triangles
     if np.any((t[:, 0] == t[:, 1]) | (t[:, 1] == t[:, 2]) | (t[:, 2] == t[:, 0])):
         return [fault("a triangle has two equal corners")]
-    if not np.all(of_each(doubled_areas, mesh, t) > 0):
+    if not np.all(areas(mesh) > 0):
         return [fault("a triangle has no area")]
     n = len(mesh.vertices)
     forward, backward = (np.sort(np.concatenate([t[:, k] * n + t[:, k - way] for k in range(3)])) for way in (2, 1))
