@@ -17,6 +17,7 @@ from parts.base.registry import KINDS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import built_in_scenes
+from tests import pictures
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text("utf-8")
@@ -36,6 +37,16 @@ def test_every_calculation_is_named(topic: str) -> None:
 def test_every_picture_is_there_and_shown() -> None:
     shown = set(re.findall(r"\]\(\.pictures/([\w.]+)\)", README))
     assert shown == {file.name for file in (ROOT / ".pictures").iterdir()}
+
+
+@pytest.mark.parametrize("scene", [
+    scene if scene == "worm" else pytest.param(scene, marks=pytest.mark.heavy)
+    for scene in sorted({scene for scene, _ in pictures.OF.values()})
+])  # fmt: skip
+def test_pictures_are_what_the_program_makes(scene: str, tmp_path: Path) -> None:
+    """``python -m tests.pictures`` makes them anew."""
+    for name, text in pictures.made(scene, tmp_path).items():
+        assert (pictures.FOLDER / f"{name}.svg").read_text("utf-8") == text, name
 
 
 def unnamed_rooms(page: str) -> set[str]:
