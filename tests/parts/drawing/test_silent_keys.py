@@ -30,7 +30,8 @@ OTHER = {"kind", "of", "material", "density", "colour", "title", "position", "de
          "label", "accuracy"}  # fmt: skip
 # what is the same part, only turned: nothing about it has a direction of its own
 TURNED = {("roller", "bore.angle_deg"), ("shaft", "steps.0.keyways.0.angle_deg"), ("shaft", "steps.0.flats.angle_deg"),
-          ("output_plate", "start_deg"), ("pin_ring", "holes.start_deg")}  # fmt: skip
+          ("shaft", "steps.1.flats.angle_deg"), ("output_plate", "start_deg"),
+          ("pin_ring", "holes.start_deg")}  # fmt: skip
 # a drawing of these, or its exact mass, takes up to a second
 SLOW = (
     "bevel_gear",
