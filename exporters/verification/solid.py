@@ -39,12 +39,18 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     upright = model.is_upright & ~flat & (not sheared)
     if body.twisted_profiles():
         upright &= ~_between_helices(model)
+    beside = upright & _beside_chamfers(model, body)
     contours, worst, found_wrong = _caps(model, np.flatnonzero(flat), body, declared, tolerance)
     failures += found_wrong
     # an extrusion of an edge between it and a cap is as good as that edge
     known = np.isin(model.moved, model.uses.edge[flat[model.uses.face]])
-    deviation, found_wrong = _wall_deviation(model, np.flatnonzero(upright & ~known), body, declared)
+    deviation, found_wrong = _wall_deviation(model, np.flatnonzero(upright & ~known & ~beside), body, declared)
     failures += found_wrong
+    # round walls of crowned teeth stand upright between ends of their own
+    if beside.any():
+        points = np.concatenate([of(model, np.flatnonzero(beside)) for of in (edge_points, inner_points)])
+        off = np.minimum(chamfer_distances(points, body, declared), upright_distances(points, body, declared))
+        deviation = max(deviation, float(off.max()))
     slanted = np.flatnonzero(~flat & ~upright)
     worst = max(worst, deviation)
     if slanted.size:
@@ -69,6 +75,26 @@ def screw_distances(points: Real, body: Body, declared: float) -> Real:
         found = distance_to_profile(back, body.loop_profile(wall.lower), trusted=declared)
         best[mine] = np.minimum(best[mine], found)
     return best
+
+
+def upright_distances(points: Real, body: Body, declared: float) -> Real:
+    """Distances (n,) of points (n, 3) from the upright walls at their heights, mm; infinite where none stands."""
+    best = np.full(len(points), np.inf)
+    for wall in filter(body.is_upright, body.walls):
+        low, high = body.height(wall)
+        mine = np.flatnonzero((points[:, 2] > low - LEVEL) & (points[:, 2] < high + LEVEL))
+        places, profile = points[mine, 0] + 1j * points[mine, 1], body.loop_profile(wall.lower)
+        best[mine] = np.minimum(best[mine], distance_to_profile(places, profile, trusted=declared))
+    return best
+
+
+def _beside_chamfers(model: Model, body: Body) -> Flags:
+    """Which faces have their middle at the height of a chamfer."""
+    low, high = model.heights
+    middle, found = (low + high) / 2, np.zeros(len(model.faces), dtype=bool)
+    for bottom, top in map(body.height, filter(body.is_chamfer, body.walls)):
+        found |= (bottom < middle) & (middle < top)
+    return found
 
 
 def _caps(model: Model, faces: Index, body: Body, declared: float, tolerance: float) -> tuple[int, float, list[str]]:
@@ -145,13 +171,21 @@ def _between_helices(model: Model) -> Flags:
 
 
 def _cylinder_failures(cylinders: int, body: Body) -> list[str]:
-    """All arcs have become cylinders; a screw surface may be cut across into several."""
-    walls = [w for w in body.walls if not body.is_chamfer(w)]
-    upright = sum(_cylinders(body.loop_profile(w.lower)) for w in walls if not body.is_screw(w))
-    turned = sum(_cylinders(body.loop_profile(w.lower), turned=True) for w in walls if body.is_screw(w))
+    """All arcs have become cylinders; screw surfaces and crowned teeth may be cut across into several."""
+    upright = sum(_cylinders(body.loop_profile(w.lower)) for w in filter(body.is_upright, body.walls))
+    turned = sum(_cylinders(body.loop_profile(w.lower), turned=True) for w in filter(body.is_screw, body.walls))
+    turned += sum(_kept_arcs(body, w) for w in filter(body.is_chamfer, body.walls))
     more = cylinders - upright
     right = more == turned or (turned and more > 0 and more % turned == 0)
     return unless(right, "{count} cylinders instead of {wanted}", count=cylinders, wanted=upright + turned)
+
+
+def _kept_arcs(body: Body, wall: Wall) -> int:
+    """How many arcs about the axis a chamfer has that are as wide at both ends, as those of crowned teeth."""
+    ends = [body.loop_profile(loop) for loop in (wall.lower, wall.upper)]
+    pairs = [(a.curve, b.curve) for a, b in zip(*(end.period for end in ends), strict=True)]
+    kept = [abs(a.radius - b.radius) < 10.0**-_DIGITS for a, b in pairs if isinstance(a, Arc) and isinstance(b, Arc)]
+    return sum(kept) * ends[0].count
 
 
 def _cylinders(profile: Profile, *, turned: bool = False) -> int:

@@ -32,6 +32,8 @@ from geometry.solids.faces import (
     Surface,
 )  # fmt: skip
 
+# what is one radius, part of it
+_SAME = 1e-12
 UP, AHEAD = np.array([[0.0, 0.0, 1.0]]), np.array([[1.0, 0.0, 0.0]])
 
 
@@ -194,7 +196,8 @@ class RingBuilder(SolidBuilder):
         shape = low.shape
         assert isinstance(shape, Circular)
         surface: Surface = Cylinder(replace(shape.frame, axis=UP), shape.radius)
-        if widening:
+        # radii that differ by rounding only are one
+        if abs(widening) > _SAME * shape.radius:
             narrow, up = (shape, UP) if widening > 0 else (high.shape, -UP)
             assert isinstance(narrow, Circular)
             slant = math.atan2(abs(widening), height[1] - height[0])

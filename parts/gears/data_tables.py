@@ -87,7 +87,9 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     hand = [hand_row("double" if helix.double else helix.hand)] if helix.angle else []
     basic, own = _basic_rack(keys)
     shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))
-    first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *grade_rows(keys.accuracy))
+    crowned = getattr(keys, "crowning", 0.0)
+    crown = (DataRow(N_("crowning of each flank"), "C_β", crowned, "mm"),) if crowned else ()
+    first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *crown, *grade_rows(keys.accuracy))
     beside = _at_distances(mates, DataRow(N_("centre distance"), "a_w", 0.0, "mm"))
     others = mate_rows([m for m in mates if m.distance is None])
     return DataTable((first, _control(page, keys.accuracy), (*rows_of(page, _REFERENCE), *beside, *others)))

@@ -27,7 +27,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
-from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
+from geometry.solids.wheel import Rim, WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
@@ -81,6 +81,7 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 
 
 _TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=2e6, example=50.0)
+_CROWNING = mm("relief of each flank at both faces, none in the middle (C_beta): teeth are barrels", least=0, most=10)
 _PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x (xi in the sources)", least=-10, most=10)
 
 
@@ -93,6 +94,7 @@ class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     basic_rack: RackName | RackTable = "ISO 53 A"
     cutter: CutterTable | None = None
     tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
+    crowning: Annotated[float, _CROWNING] = 0.0
     thinning_method: Literal["wider_rack_tooth", "deeper_cut"] = "wider_rack_tooth"
     tip_relief: ReliefTable | None = None
     bore_diameter: BoreDiameter = 0.0
@@ -125,11 +127,30 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
         gear = checked_gear(gear_of(keys), helix.angle)
         check_face_chamfer(keys.face_chamfer, helix_of(keys), gear)
         check_wheel(shape_of(keys), 2 * gear.core_radius, _about_axis(gear))
+        _check_crowning(keys, gear)
     except ParameterError as refusal:
         whole = LateError(refusal.code, partial(_whole, keys, refusal))
         raise with_remedy(whole, keys, holes_fit) from refusal
     _marks(keys, gear)
     return gear
+
+
+def _check_crowning(keys: SpurGearSpec, gear: SpurGear) -> None:
+    """Refuse teeth of a helix, or cut deeper, that are crowned, and crowning that leaves the faces no such tooth."""
+    if not keys.crowning:
+        return
+    from geometry.gears.teeth.crowning import has_form
+
+    for key, idle in (("helix_angle_deg", 0.0), ("thinning_method", "wider_rack_tooth")):
+        if (given := getattr(keys, key)) != idle:
+            raise ParameterError("crowning", keys.crowning, "not_crowned", Nearest(0.0), key=key, given=given)
+
+    def outline(one: SpurGear) -> Profile:
+        return moved_outline(one, 0.0)[0]
+
+    fits = partial(has_form, outline, gear)
+    if not fits(keys.crowning):
+        raise ParameterError("crowning", keys.crowning, "crowned_away", partial(nearest, fits, keys.crowning, 0.0))
 
 
 def _about_axis(gear: SpurGear) -> HubHoles:
@@ -202,12 +223,28 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
             return chamfered_outline(thing, -moved, depth, max(deepest, depth))
 
         sections = wheel_sections(lru_cache(maxsize=8)(outline), thing.core_radius, thing.holes)
-        body = wheel_body(shape, replace(sections, core=_about_axis(thing)), offset)
+        sections = replace(sections, core=_about_axis(thing), rim=self._crowned(keys, thing, shape))
+        body = wheel_body(shape, sections, offset)
         return engraved(body, _marks(keys, thing), keys.face_width)
+
+    def _crowned(self, keys: SpurGearSpec, thing: SpurGear, shape: WheelShape) -> Rim | None:
+        """Teeth with crowning; None where one section goes from face to face."""
+        if not keys.crowning:
+            return None
+        from geometry.gears.teeth.crowning import crowned_teeth
+
+        chamfers = shape.chamfer_below, shape.chamfer_above
+
+        def outline(gear: SpurGear, moved: float, depth: float) -> Profile:
+            if max(chamfers) == 0:
+                return moved_outline(gear, moved)[0]
+            return chamfered_outline(gear, -moved, depth, max(chamfers))
+
+        return crowned_teeth(outline, thing, keys.crowning, keys.face_width, chamfers)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""
-        return shape_of(keys).is_plate
+        return shape_of(keys).is_plate and not keys.crowning
 
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""

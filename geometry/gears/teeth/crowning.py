@@ -1,0 +1,71 @@
+"""Lengthwise crowning of spur teeth: each section is that of a gear whose teeth are thinner towards the faces.
+
+At a height z each flank is relieved by C (2 z / b - 1)^2, normal to it (ISO 21771: C_beta): an involute turns about the
+axis, and its fillet is that of the wider rack tooth, so that every section is exact.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import lru_cache
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from geometry.base.errors import GeometryError
+from geometry.base.record import replace
+from geometry.gears.teeth.spur import SpurGear
+from geometry.plane.profile import Profile
+
+if TYPE_CHECKING:
+    from geometry.solids.body import BodyBuilder
+    from geometry.solids.wheel import Rim
+
+# reliefs and depths that differ by rounding only have one section, mm
+_DIGITS = 12
+
+
+def relieved(gear: SpurGear, relief: float) -> SpurGear:
+    """The gear with each flank ``relief`` mm deeper in its teeth."""
+    thinned = 2 * relief / math.cos(gear.pressure_angle)
+    return replace(gear, circumferential_thinning=gear.circumferential_thinning + thinned)
+
+
+def has_form(outline: Callable[[SpurGear], Profile], gear: SpurGear, crowning: float) -> bool:
+    """Whether the outline at the faces exists, with the segments of that in the middle."""
+    try:
+        ends = outline(relieved(gear, crowning))
+    except GeometryError:
+        return False
+    return [s.label for s in ends.period] == [s.label for s in outline(gear).period]
+
+
+def crowned_teeth(
+    outline: Callable[[SpurGear, float, float], Profile],
+    gear: SpurGear,
+    crowning: float,
+    width: float,
+    chamfers: tuple[float, float],
+) -> Rim:
+    """Teeth relieved by ``crowning`` at both faces, with face chamfers below and above; mm.
+
+    ``outline`` makes that of a gear, moved out of the material and then cut so deep by a chamfer.
+    """
+    below, above = chamfers
+
+    def rim(made: BodyBuilder, offset: float) -> tuple[int, int]:
+        @lru_cache
+        def section(relief: float, depth: float) -> Profile:
+            return outline(relieved(gear, relief), offset, depth)
+
+        def at(z: float) -> Profile:
+            depth = max(below - z, z - (width - above), 0.0)
+            return section(round(crowning * (2 * z / width - 1) ** 2, _DIGITS), round(depth, _DIGITS))
+
+        levels = sorted({0.0, below, width / 2, width - above, width})
+        loops = [made.loop(at(z), z) for z in levels]
+        for lower, upper in pairwise(loops):
+            made.wall(lower, upper, at)
+        return loops[0], loops[-1]
+
+    return rim
