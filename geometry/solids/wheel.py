@@ -15,12 +15,12 @@ from geometry.base.record import Record
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.plane.profile import Label, Profile, Region, circle
-from geometry.solids.cross_holes import CrossHole, check_cross_holes
 from geometry.solids.hub_holes import HubHoles, least_wall
 
 if TYPE_CHECKING:
     # a flat section asks for the shape of a wheel, not for its solid
     from geometry.solids.body import Body, BodyBuilder, Twist
+    from geometry.solids.cross_holes import CrossHole
 
 # writes teeth into a body moved by an offset, mm: its lower and upper loop
 Rim = Callable[["BodyBuilder", float], tuple[int, int]]
@@ -323,6 +323,8 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles, edge: 
         _between("web.rim_diameter", web.rim_diameter, (outer, "holes"), (math.inf, ""))
     _check_heights(shape)
     if hub is not None and hub.set_screws:
+        from geometry.solids.cross_holes import check_cross_holes
+
         above, width = hub.above >= hub.below, shape.face_width
         ends = (width, width + hub.above) if above else (0.0, -hub.below)
         chamfer = shape.chamfer_above if above else shape.chamfer_below

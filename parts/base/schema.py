@@ -522,10 +522,11 @@ def as_toml(value: object) -> str:
 
 
 def table_line(table: type[Struct]) -> str:
-    """A table of a kind, in one line."""
+    """A table of a kind, in one line; without the tables in it that may be left out."""
     config = table.__struct_config__
     tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
-    shown = [(f, meta) for f in fields_of(table) if not marks_of(meta := example_of(f.type)).get("aside")]
+    own = [f for f in fields_of(table) if not (f.default is None and tables_of(f))]
+    shown = [(f, meta) for f in own if not marks_of(meta := example_of(f.type)).get("aside")]
     inner = (f"{f.encode_name} = {starting_value(f, meta)}" for f, meta in shown)
     return "{ " + ", ".join([*tag, *inner]) + " }"
 

@@ -10,7 +10,6 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import moved
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
-from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind
@@ -23,6 +22,7 @@ from parts.keys.wheel import HubbedKeys, cross_holes, shape_of
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
     from geometry.solids.body import Body
+    from geometry.solids.cross_holes import CrossHole
 
 
 Within = Literal["base_circle", "groove"]

@@ -9,7 +9,6 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
-from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import Holed
 from geometry.solids.wheel import Hub, Rim, Web, WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
+    from geometry.solids.cross_holes import CrossHole
 
 
 class WebTable(Struct, forbid_unknown_fields=True):
@@ -131,6 +131,8 @@ def _set_screws(face_width: float, hub: HubTable, chamfers: FaceChamferTable) ->
     table = hub.set_screws if isinstance(hub, ScrewedHubTable) else None
     if table is None:
         return ()
+    from geometry.solids.cross_holes import CrossHole
+
     length, chamfer = (hub.above, chamfers.above) if hub.above >= hub.below else (hub.below, chamfers.below)
     if not length:
         raise ParameterError("hub.set_screws", None, "set_screws_in_no_hub", Nearest(None))

@@ -14,7 +14,6 @@ from geometry.base.nearest import moved
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
-from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
@@ -49,6 +48,7 @@ from parts.keys.wheel import cross_holes, shape_of
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
     from geometry.solids.body import Body
+    from geometry.solids.cross_holes import CrossHole
     from parts.base.readback import Probe
     from parts.cams.probes import TurningProbe
 

@@ -25,7 +25,6 @@ from geometry.gears.teeth.limits import checked_gear, exists, findings, root_for
 from geometry.gears.teeth.offset import chamfered_outline, gear_region, moved_outline
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
-from geometry.solids.cross_holes import CrossHole
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import Rim, WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
@@ -53,6 +52,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
+    from geometry.solids.cross_holes import CrossHole
 
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
