@@ -47,8 +47,8 @@ def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.
     if region.strokes:
         drawn = [[(p.real, p.imag) for p in stroke] for stroke in region.strokes]
         clear = shapely.difference(clear, shapely.buffer(shapely.MultiLineString(drawn), STROKE + _CLEAR))
-    widest = 0.0 if clear.is_empty else shapely.maximum_inscribed_circle(clear, _CHORDS).length
-    strokes = _inside(clear, widest, text)
+    middle, widest = _widest(clear)
+    strokes = _inside(clear, middle, widest, text)
     if strokes is not None:
         return replace(section, region=replace(region, strokes=(*region.strokes, *strokes)))
     _, low, right, high = shapely.bounds(_polygon(region.outer)).tolist()
@@ -66,7 +66,19 @@ def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.
     return OffsetRegion(made, section.offset, (*section.findings, told))
 
 
-def _inside(clear: shapely.Polygon, widest: float, text: str) -> tuple[Stroke, ...] | None:
+def _widest(clear: shapely.Polygon) -> tuple[complex, float]:
+    """Middle and radius of the widest circle in clear material, coarsely where the highest letters have room anyway."""
+    import shapely
+
+    if clear.is_empty:
+        return 0j, 0.0
+    circle = shapely.maximum_inscribed_circle(clear, _MOST / 4)
+    if circle.length < _MOST / (2 * _SHARE):
+        circle = shapely.maximum_inscribed_circle(clear, _CHORDS)
+    return complex(*circle.coords[0]), circle.length
+
+
+def _inside(clear: shapely.Polygon, middle: complex, widest: float, text: str) -> tuple[Stroke, ...] | None:
     """The strokes in clear material, as high as they can stand; None where there is no room."""
     import shapely
 
@@ -83,7 +95,7 @@ def _inside(clear: shapely.Polygon, widest: float, text: str) -> tuple[Stroke, .
     for turn in dict.fromkeys((0.0, math.pi / 2, along)):
         if most <= _TURNED * best:
             break
-        way = _Way(clear, turn)
+        way = _Way(clear, middle, turn)
         least = way.placed(layouts, _LEAST)
         if least is not None:
             tried = ((height, way.placed(layouts, height)) for height in heights)
@@ -94,9 +106,12 @@ def _inside(clear: shapely.Polygon, widest: float, text: str) -> tuple[Stroke, .
 
 
 class _Way:
-    """Clear material turned so that words of one direction lie along x, and places in it, from its middle outwards."""
+    """Clear material turned so that words of one direction lie along x, and places in it, from its middle outwards.
 
-    def __init__(self, clear: shapely.Polygon, turn: float) -> None:
+    ``middle``: of its widest circle, before it is turned.
+    """
+
+    def __init__(self, clear: shapely.Polygon, middle: complex, turn: float) -> None:
         import shapely
 
         self.turn = turn
@@ -110,8 +125,7 @@ class _Way:
         shapely.prepare(self.clear)
         left, low, right, high = shapely.bounds(self.clear).tolist()
         x, y = np.meshgrid(np.linspace(left, right, _PLACES), np.linspace(low, high, _PLACES))
-        circle = np.array(shapely.maximum_inscribed_circle(self.clear, _CHORDS).coords)[0]
-        spots = np.concatenate([[complex(*circle)], (x + 1j * y).ravel()])
+        spots = np.concatenate([[middle * spin], (x + 1j * y).ravel()])
         points = shapely.points(spots.real, spots.imag)
         inside = shapely.contains(self.clear, points)
         spots, points = spots[inside], points[inside]

@@ -273,3 +273,21 @@ def test_engraved_numbers_have_the_mark_of_the_scenes_language(tmp_path: Path) -
         assert main(["build", str(tmp_path / "s.toml"), "--out", str(tmp_path), "-q", "--no-verify"]) == 0
         told[language, label] = (tmp_path / "s/g.svg").read_bytes()
     assert told["uk", "true"] == told["uk", '"z 22 m 2,5"'] != told["en", "true"] == told["en", '"z 22 m 2.5"']
+
+
+def test_of_a_wide_part_no_circle_is_sought_nearer_than_its_letters_need(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A gear of 1 m looked four times for the middle of its body to 0.02 mm: 0.7 s, of 7 m 4 s."""
+    asked: list[float] = []
+    sought = shapely.maximum_inscribed_circle
+
+    def circle(material: shapely.Geometry, tolerance: float) -> shapely.Geometry:
+        asked.append(tolerance)
+        return sought(material, tolerance)
+
+    monkeypatch.setattr(shapely, "maximum_inscribed_circle", circle)
+    text = '[parts.g]\nkind = "spur_gear"\nmodule = 10.0\nnumber_of_teeth = 100\nbore_diameter = 6.0\nlabel = "A"\n'
+    part = make_parts(scene_from_toml(text.encode() + b'[[exports]]\nformat = "svg"\n', "s", "s"), "s")[0]["g"]
+    strokes = np.concatenate(part.cut(0.0, gap=2.0).region.strokes)
+    assert np.ptp(strokes.imag) == pytest.approx(8.0)
+    assert len(asked) == 1
+    assert asked[0] >= 1.0
