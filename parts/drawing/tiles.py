@@ -11,7 +11,7 @@ import numpy as np
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_nearest, profile_disc
 from geometry.plane.profile import Profile
@@ -209,28 +209,47 @@ def _tiles(
     columns, rows, upright, wide, tall = layout.columns, layout.rows, layout.upright, layout.wide, layout.tall
     corner = complex(box.left + box.right - columns * wide, box.low + box.high - rows * tall) / 2
     found = []
-    for row in reversed(range(rows)):
-        for column in range(columns):
-            canvas = blank(paper, upright=upright, margins=_MARGINS)
-            frame, near = canvas.frame, corner + complex(column * wide, row * tall)
-            # the cell's corner lies half of the overlap within the area
-            origin = complex(frame.left, frame.low) + complex(OVERLAP, OVERLAP) / 2 - near
-            cell = Box(near.real, near.imag, near.real + wide, near.imag + tall)
-            pieces = [piece for edge in edges for piece in clipped(edge, cell.grown(OVERLAP / 2))]
-            if not pieces:
-                continue
-            draw(canvas, "CUT", pieces, Paper(1.0, origin))
-            if rows * columns > 1:
-                _marks(canvas, cell, origin)
-            # it may lie where both overlap
-            if Box(-_MARK, -_MARK, _MARK, _MARK).within(cell.grown(OVERLAP / 2)):
-                draw(canvas, "CENTRE_MARK", _CROSS, Paper(1.0, origin))
-            place = {"row": rows - row, "column": column + 1, "rows": rows, "columns": columns}
-            tiled = sheet_words(language, "model_tile", part=name, **place)
-            text = tiled if rows * columns > 1 else _caption(name, language)
-            canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.wide - 4.0)
-            on = OnOutlines(((origin, exact),))
-            found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}, measures=on))
+    cells = _cells(edges, corner, layout)
+    for row, column in sorted(cells, key=lambda at: (-at[0], at[1])):
+        near = corner + complex(column * wide, row * tall)
+        cell = Box(near.real, near.imag, near.real + wide, near.imag + tall)
+        pieces = [piece for edge in cells[row, column] for piece in clipped(edge, cell.grown(OVERLAP / 2))]
+        if not pieces:
+            continue
+        canvas = blank(paper, upright=upright, margins=_MARGINS)
+        frame = canvas.frame
+        # the cell's corner lies half of the overlap within the area
+        origin = complex(frame.left, frame.low) + complex(OVERLAP, OVERLAP) / 2 - near
+        draw(canvas, "CUT", pieces, Paper(1.0, origin))
+        if rows * columns > 1:
+            _marks(canvas, cell, origin)
+        # it may lie where both overlap
+        if Box(-_MARK, -_MARK, _MARK, _MARK).within(cell.grown(OVERLAP / 2)):
+            draw(canvas, "CENTRE_MARK", _CROSS, Paper(1.0, origin))
+        place = {"row": rows - row, "column": column + 1, "rows": rows, "columns": columns}
+        tiled = sheet_words(language, "model_tile", part=name, **place)
+        text = tiled if rows * columns > 1 else _caption(name, language)
+        canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.wide - 4.0)
+        on = OnOutlines(((origin, exact),))
+        found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}, measures=on))
+    return found
+
+
+def _cells(edges: Sequence[Edge], corner: complex, layout: _Layout) -> dict[tuple[int, int], list[Edge]]:
+    """The edges that may show on each tile, by its row and column."""
+    found: dict[tuple[int, int], list[Edge]] = {}
+    for edge in edges:
+        ends = edge.point(np.array(edge.domain)) - corner
+        # no place of an arc is farther off its chord
+        off = OVERLAP / 2 + (edge.radius * (1 - math.cos(edge.sweep / 2)) if isinstance(edge, Arc) else 0.0)
+
+        def span(along: Real, side: float, count: int, off: float = off) -> range:
+            first, last = math.floor((along.min() - off) / side), math.floor((along.max() + off) / side)
+            return range(max(first, 0), min(last, count - 1) + 1)
+
+        for row in span(ends.imag, layout.tall, layout.rows):
+            for column in span(ends.real, layout.wide, layout.columns):
+                found.setdefault((row, column), []).append(edge)
     return found
 
 
