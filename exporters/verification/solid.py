@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from exporters.formats.read_curves import lobatto, spans_of
@@ -173,10 +175,11 @@ def _between_helices(model: Model) -> Flags:
 def _cylinder_failures(cylinders: int, body: Body) -> list[str]:
     """All arcs have become cylinders; screw surfaces and crowned teeth may be cut across into several."""
     upright = sum(_cylinders(body.loop_profile(w.lower)) for w in filter(body.is_upright, body.walls))
-    turned = sum(_cylinders(body.loop_profile(w.lower), turned=True) for w in filter(body.is_screw, body.walls))
-    turned += sum(_kept_arcs(body, w) for w in filter(body.is_chamfer, body.walls))
-    more = cylinders - upright
-    right = more == turned or (turned and more > 0 and more % turned == 0)
+    cut = [_cylinders(body.loop_profile(w.lower), turned=True) for w in filter(body.is_screw, body.walls)]
+    cut += [_kept_arcs(body, w) for w in filter(body.is_chamfer, body.walls)]
+    turned, more = sum(cut), cylinders - upright
+    # each wall into as many as it needs
+    right = more == turned or (more > turned > 0 and (more - turned) % math.gcd(*cut) == 0)
     return unless(right, "{count} cylinders instead of {wanted}", count=cylinders, wanted=upright + turned)
 
 
@@ -184,8 +187,8 @@ def _kept_arcs(body: Body, wall: Wall) -> int:
     """How many arcs about the axis a chamfer has that are as wide at both ends, as those of crowned teeth."""
     ends = [body.loop_profile(loop) for loop in (wall.lower, wall.upper)]
     pairs = [(a.curve, b.curve) for a, b in zip(*(end.period for end in ends), strict=True)]
-    kept = [abs(a.radius - b.radius) < 10.0**-_DIGITS for a, b in pairs if isinstance(a, Arc) and isinstance(b, Arc)]
-    return sum(kept) * ends[0].count
+    arcs = [(a, b) for a, b in pairs if isinstance(a, Arc) and isinstance(b, Arc) and not (a.centre or b.centre)]
+    return sum(abs(a.radius - b.radius) < 10.0**-_DIGITS for a, b in arcs) * ends[0].count
 
 
 def _cylinders(profile: Profile, *, turned: bool = False) -> int:

@@ -15,13 +15,17 @@ from geometry.approximation.chamfered import Sections, chamfered_outlines, piece
 from geometry.approximation.outline import Outline, spline_outline
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import profile_area
+from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Cap, Wall
 from geometry.solids.chamfer import cut_chamfers, even_shares, opening
 from geometry.solids.faces import Loop, Solid
 from geometry.solids.rings import Ring, RingBuilder, spatial
 from geometry.solids.screw import cut_twists, heights, turn_error, turn_spans, turn_spline, with_turn_error
 
+# rad, and part of a radius, what is one direction and one centre
+_SAME = 1e-9
 # files pay by the pole
 _DEGREE = 7
 
@@ -61,11 +65,24 @@ def _chamfered_outlines(body: Body, tolerance: float, twisted: Container[int]) -
                 indices.append(end)
         profile, turned = body.profiles[index], index in twisted
         near = tolerance - 2 * turn_error(profile.reach()) if turned else tolerance
-        outlines = chamfered_outlines(profile, chamfers, near, degree=_DEGREE, turned=turned)
+        bent = turned or any(_bends(profile, body.profiles[end]) for end in indices[1:])
+        outlines = chamfered_outlines(profile, chamfers, near, degree=_DEGREE, turned=bent)
         if turned:
             outlines = (with_turn_error(outlines[0], profile.reach()), *outlines[1:])
         made |= dict(zip(indices, outlines, strict=True))
     return made
+
+
+def _bends(whole: Profile, end: Profile) -> bool:
+    """Whether lines turn or centres of arcs move from a boundary to the end of its walls, as on crowned teeth."""
+    for one, other in ((a.curve, b.curve) for a, b in zip(whole.period, end.period, strict=True)):
+        if isinstance(one, Line) and isinstance(other, Line):
+            way, after = (line.end - line.start for line in (one, other))
+            if abs((way.conjugate() * after).imag) > _SAME * abs(way) ** 2:
+                return True
+        elif isinstance(one, Arc) and isinstance(other, Arc) and abs(one.centre - other.centre) > _SAME * one.radius:
+            return True
+    return False
 
 
 def cut_for_faces(body: Body) -> Body:

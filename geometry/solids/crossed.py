@@ -235,7 +235,9 @@ def _surfaces(body: Body, holes: Sequence[CrossHole]) -> tuple[Measured, ...]:
     walls: dict[object, Wall] = {}
     for wall in body.walls:
         place = body.loops[wall.lower]
-        walls.setdefault((place.profile, place.turn) if body.is_upright(wall) else id(wall), wall)
+        # one surface is one wall, on both sides of a web too
+        turn = None if _is_circle(body.loop_profile(wall.lower)) else place.turn
+        walls.setdefault((place.profile, turn) if body.is_upright(wall) else id(wall), wall)
     found = [Measured("wall", _to_wall(body, wall), _turns(body, wall)) for wall in walls.values()]
     return (*levels, *found, *(Measured("cylinder", partial(_to_hole, hole)) for hole in holes))
 

@@ -24,10 +24,11 @@ PARTS: dict[str, Keys] = {
     "plain": GEAR,
     "whole": GEAR | {"face_chamfer": 0.4, "hub": {"diameter": 20.0, "above": 6.0}, "profile_shift_coefficient": 0.2,
                      "web": {"thickness": 4.0, "rim_diameter": 36.0}},
-    "undercut": GEAR | {"number_of_teeth": 9, "bore_diameter": 4.0, "crowning": 0.03, "tooth_mark": {}},
-    "sector": GEAR | {"sector": {"teeth": 5}},
+    "undercut": GEAR | {"number_of_teeth": 9, "bore_diameter": 4.0, "crowning": 0.03, "tooth_mark": {},
+                        "tip_chamfer": 0.1},
+    "sector": GEAR | {"sector": {"teeth": 5}, "tip_rounding": 0.15},
 }  # fmt: skip
-EXPORTS: list[Keys] = [{"format": "stl", "tolerance": 0.005}, {"format": "step"}, {"format": "svg", "purpose": "part"}]
+EXPORTS: list[Keys] = [{"format": "stl"}, {"format": "step"}, {"format": "svg", "purpose": "part"}]
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +63,7 @@ def test_slices_are_as_thick_as_the_involute_turned(folder: Path, name: str) -> 
             involute = math.acos(base / radius)
             turned = 2 * (math.tan(involute) - involute - math.tan(math.radians(20)) + math.radians(20))
             wanted = radius * (whole / reference - turned - 2 * relief / base)
-            assert thickness(section, radius) == pytest.approx(wanted, abs=0.013)
+            assert thickness(section, radius) == pytest.approx(wanted, abs=0.023)
 
 
 def test_volumes_and_tables_tell_what_is_made(folder: Path) -> None:

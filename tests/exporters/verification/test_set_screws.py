@@ -19,7 +19,7 @@ SCREWS: Keys = {"diameter": 2.5, "count": 2, "angle_deg": 90.0, "spacing_deg": 1
 HUB: Keys = {"diameter": 12.0, "above": 7.0, "set_screws": SCREWS}
 GEAR: Keys = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 17, "face_width": 4.0}
 PARTS: dict[str, Keys] = {
-    "pinion": GEAR | {"bore_diameter": 5.0, "face_chamfer": 0.3, "hub": HUB},
+    "pinion": GEAR | {"bore_diameter": 5.0, "face_chamfer": 0.3, "hub": HUB | {"below": 2.0}},
     "helical": GEAR | {"bore": {"shape": "D", "diameter": 5.0, "flat": 4.5}, "helix_angle_deg": 20.0,
                        "hub": HUB | {"above": 0.0, "below": 6.0, "set_screws": SCREWS | {"count": 1}}},
     "pulley": {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 20, "face_width": 7.0, "bore_diameter": 5.0,
