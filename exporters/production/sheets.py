@@ -15,7 +15,7 @@ from exporters.drawings.verify import verify_sheets
 from exporters.production.jobs import FileJob, Made
 from exporters.production.request import Request
 from exporters.verification.verdict import Verdict
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import ConvergenceError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
@@ -121,7 +121,8 @@ def sheet_jobs(wanted: Request) -> list[SheetJob]:
     Raises
     ------
     SceneError
-        The scene has no such pair, there is nothing to draw of it, or the paper is too small.
+        The scene has no such pair, there is nothing to draw of it, the paper is too small, or no spline of a curve is
+        proven to keep the tolerance.
     """
     export, parts, language = wanted.export, wanted.parts, wanted.language
     tolerance = float(export.tolerance or 0.0)
@@ -136,6 +137,9 @@ def sheet_jobs(wanted: Request) -> list[SheetJob]:
         made = _MAKERS[export.purpose or "meshing"](wanted, asked)
     except ParameterError as error:
         raise placed(wanted.source, wanted.where, error, unit_of(ExportSpec, error.name)) from error
+    except ConvergenceError as error:
+        said = {"residual": error.residual, "steps": error.iterations}
+        raise wanted.refused("tolerance", tolerance, "tolerance_not_met", **said) from error
     for number, (word, expected) in enumerate(made, 1):
         shown = [word.partition(".")[0]] if export.purpose in ("cam", "part") else export.parts or []
         part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None

@@ -464,6 +464,16 @@ def test_refusals_name_their_key() -> None:
     assert jobs(pin | {"diameter": 10.0}, drawing={"shaft": "cd8"})
 
 
+def test_a_curve_that_no_spline_is_proven_to_follow_is_refused_in_the_tolerance() -> None:
+    """A groove nearly as wide as its barrel: the command ended in a traceback, of a laser's DXF it was a refusal."""
+    barrel = {"kind": "barrel_cam", "form": "groove", "outer_diameter": 15.0, "groove_depth": 0.024685,
+              "roller_diameter": 10.0, "clearance": 2.0,
+              "motion_table": [[0.0, 0.0], [60.0, 4.0], [120.0, 10.0], [200.0, 8.0], [300.0, 1.0]]}  # fmt: skip
+    with pytest.raises(SceneError) as refused:
+        jobs(barrel)
+    assert (refused.value.code, refused.value.key) == ("tolerance_not_met", "exports[1].tolerance")
+
+
 def test_of_many_parts_a_refusal_names_the_one_that_has_no_room() -> None:
     raw = {"parts": {"pin": PARTS["pin"], "large": {"kind": "pin", "diameter": 8.0, "length": 600.0}},
            "exports": [{"format": "svg", "purpose": "part", "paper": "A4", "scale": "1:1"}]}  # fmt: skip
