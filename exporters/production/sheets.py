@@ -138,8 +138,9 @@ def sheet_jobs(wanted: Request) -> list[SheetJob]:
     except ParameterError as error:
         raise placed(wanted.source, wanted.where, error, unit_of(ExportSpec, error.name)) from error
     except ConvergenceError as error:
-        said = {"residual": error.residual, "steps": error.iterations}
-        raise wanted.refused("tolerance", tolerance, "tolerance_not_met", **said) from error
+        raise wanted.refused(
+            "tolerance", tolerance, "tolerance_not_met", residual=error.residual, steps=error.iterations
+        ) from error
     for number, (word, expected) in enumerate(made, 1):
         shown = [word.partition(".")[0]] if export.purpose in ("cam", "part") else export.parts or []
         part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None

@@ -20,6 +20,8 @@ from parts.pages.page import Sheet, Table
 TOPIC = "involute"
 # minutes between the columns of a table
 _STEP = 10
+# rows of the tables of the practicum, degrees
+_FIRST, _LAST = 20, 40
 _Row = Annotated[int, Meta(ge=0, le=88, extra={"unit": "degrees"})]
 
 
@@ -28,8 +30,8 @@ class InvoluteKeys(Struct, kw_only=True, forbid_unknown_fields=True):
 
     angle_deg: Annotated[float, degrees("angle, for its involute and its cosine", least=0, most=89)] | None = None
     involute: Annotated[float, Meta(gt=0, le=50, description="inv alpha, whose angle is sought")] | None = None
-    first_deg: Annotated[_Row, Meta(description="first row of the tables")] = 20
-    last_deg: Annotated[_Row, Meta(description="last row of the tables")] = 40
+    first_deg: Annotated[_Row, Meta(description="first row of the tables")] = _FIRST
+    last_deg: Annotated[_Row, Meta(description="last row of the tables")] = _LAST
 
 
 @calculation(TOPIC, InvoluteKeys)
@@ -43,6 +45,10 @@ def sheet(keys: InvoluteKeys) -> Sheet:
             raise ParameterError("last_deg", keys.last_deg, "before_first_row", Nearest(keys.first_deg))
         _tables(page, keys.first_deg, keys.last_deg)
         return page
+    given = "involute" if keys.angle_deg is None else "angle_deg"
+    for name, row, usual in (("first_deg", keys.first_deg, _FIRST), ("last_deg", keys.last_deg, _LAST)):
+        if row != usual:
+            raise ParameterError(name, row, "other_is_given", REMOVED, other=given)
     page.section("Angle")
     if keys.angle_deg is not None:
         angle = keys.angle_deg

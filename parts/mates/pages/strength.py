@@ -34,6 +34,9 @@ from parts.texts.findings import finding_of
 TOPIC = "strength"
 OTHER_KINDS = (("second.kind", "ring_gear"),)
 _PART_1 = "ISO 6336-1"
+# what multiplies the load
+_OF_LOAD = ("application_factor", "dynamic_factor", "face_load_factor", "root_face_load_factor",
+            "transverse_load_factor", "root_transverse_load_factor")  # fmt: skip
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -86,12 +89,16 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
     _mesh(page, rated, wanted)
     if torque is not None:
         _load(page, rated, torque)
+    else:
+        check_not_in_vain(rated.keys, _OF_LOAD, "torque")
     if rated.keys.method == "GOST 21354":
         gost_steps(page, rated, loaded=torque is not None)
     else:
         _check_iso(rated)
         if torque is not None:
             _load_factors(page, rated)
+        else:
+            check_not_in_vain(rated.keys, ("least_contact_safety", "least_bending_safety"), "torque")
         for steps in (flank_stress, flank_allowed, root_stress, root_allowed):
             steps(page, rated, loaded=torque is not None)
     if torque is not None:

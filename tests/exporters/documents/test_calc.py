@@ -1384,3 +1384,12 @@ def test_pins_that_a_note_tells_are_typed_back(seed: int) -> None:
     # ISO 21771, by hand: the pin reaches beyond the tip circle
     page = json.loads(calculate("spur", [*words, f"pin_diameter={thick[1]}"], "json", "en"))["values"]
     assert page["pin_centre_diameter"] + float(thick[1]) > page["tip_diameter"]
+
+
+@pytest.mark.parametrize("row", ["first_deg=30", "last_deg=30"])
+@pytest.mark.parametrize("angle", ["angle_deg=10", "involute=0.1"])
+def test_rows_of_the_tables_are_refused_where_no_table_is_printed(angle: str, row: str) -> None:
+    with pytest.raises(SceneError) as refused:
+        calculate("involute", [angle, row], "text", "en")
+    assert refused.value.key == f"involute.{row.partition('=')[0]}"
+    assert refused.value.numbers["other"] == angle.partition("=")[0]

@@ -314,6 +314,25 @@ def test_what_is_refused(more: tuple[str, ...], key: str) -> None:
     assert "\n" not in sentence(refused.value, "en")
 
 
+FACTORS = ("application_factor=1.5", "dynamic_factor=1.3", "face_load_factor=1.2", "root_face_load_factor=1.1",
+           "transverse_load_factor=1.1", "root_transverse_load_factor=1.2")  # fmt: skip
+SAFETIES = ("least_contact_safety=1.1", "least_bending_safety=1.4")
+
+
+@pytest.mark.parametrize(
+    ("method", "key"),
+    [*(("method=ISO 6336", key) for key in (*FACTORS, *SAFETIES)), *((GOST, key) for key in FACTORS)],
+)
+def test_what_multiplies_a_load_is_refused_without_one(method: str, key: str) -> None:
+    """Without a torque these changed no number of the page, and nobody said so."""
+    page, refusal = made([*PAIR, method, key])
+    assert page is None
+    assert refusal is not None
+    assert (refusal.code, refusal.numbers["other"]) == ("needs_other", "torque")
+    assert refusal.key == f"strength.{key.partition('=')[0]}"
+    assert made([*PAIR, method, key, "torque=10"])[1] is None
+
+
 def test_the_command_tells_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     assert "strength.torque = -1" in complaint(capsys, "calc", "strength", *PAIR, "torque=-1")
 
