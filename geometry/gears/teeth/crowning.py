@@ -62,7 +62,9 @@ def crowned_teeth(
             depth = max(below - z, z - (width - above), 0.0)
             return section(round(crowning * (2 * z / width - 1) ** 2, _DIGITS), round(depth, _DIGITS))
 
-        levels = sorted({0.0, below, width / 2, width - above, width})
+        # a chamfer beyond the middle goes on with the crowning there: walls of the bore end with it
+        middle = min(max(below, width / 2), width - above)
+        levels = sorted({0.0, below, middle, width - above, width})
         loops = [made.loop(at(z), z) for z in levels]
         for lower, upper in pairwise(loops):
             made.wall(lower, upper, at)

@@ -106,3 +106,14 @@ def test_crowning_that_cannot_be_is_refused(keys: Keys, code: str) -> None:
     offered = float(refusal.nearest.value)  # type: ignore[arg-type]
     assert refused(**keys | {"crowning": offered}) is None
     assert refused(**keys | {"crowning": offered + 2e-3}) is not None
+
+
+def test_a_chamfer_may_reach_beyond_the_middle(tmp_path: Path) -> None:
+    """The bore's is one with it: the teeth's was cut in the middle, the bore's not, and the mesh was refused."""
+    chamfers = {"below": {"below": 0.7, "above": 0.2}, "above": {"above": 0.7}}
+    parts: dict[str, Keys] = {
+        name: GEAR | {"number_of_teeth": 17, "face_width": 1.2, "face_chamfer": chamfer}
+        for name, chamfer in chamfers.items()
+    }
+    exports: list[Keys] = [{"format": "stl", "tolerance": 0.02}]
+    assert run("build", write_scene(tmp_path / "s.toml", parts, exports), "--out", tmp_path / "out") == 0
