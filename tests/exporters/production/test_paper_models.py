@@ -219,6 +219,9 @@ def test_no_rod_is_cut_out_of_paper_where_the_notes_tell_its_length() -> None:
 def test_a_tile_cuts_what_may_lie_on_it_alone() -> None:
     """Each of 175 000 tiles cut the whole outline: a model of a wheel of 100 m had no end, of 5 m it took 5 s."""
     edges: list[tiles.Edge] = [Line(a, a + 300 - 200j) for a in (0j, 900 + 400j)]
+    # within the overlap of two columns, and of two rows
+    beside = [-50 - 210j + 140 * 3 + tiles.OVERLAP / 4, -50 - 210j + 150j * 3 - 1j * tiles.OVERLAP / 4]
+    edges += [Line(beside[0] + 10j, beside[0] + 50j), Line(beside[1] + 10, beside[1] + 50)]
     edges += [Arc(600 + 500j, 450.0, start, sweep) for start, sweep in ((0.1, 1.4), (2.0, 4.0), (0.3, -2.9))]
     size = {"columns": 9, "rows": 7, "upright": True, "wide": 140.0, "tall": 150.0}
     corner, grown = -50 - 210j, tiles.OVERLAP / 2

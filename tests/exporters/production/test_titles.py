@@ -312,13 +312,13 @@ def test_of_two_assemblies_of_one_kind_each_part_is_called_by_its_own(language: 
 
 
 def test_an_assembly_has_another_name_than_its_parts(tmp_path: Path) -> None:
-    """A scene pin.toml with a part `pin` that has a title: both were one product, and the file failed its check."""
-    scene = tmp_path / "pin.toml"
+    """A scene Pin.toml with a part `pin` that has a title: both were one product, and the file failed its check."""
+    scene = tmp_path / "Pin.toml"
     scene.write_text(
         '[parts.pin]\nkind = "pin"\ndiameter = 4.0\nlength = 9.0\ntitle = "Палець"\n[parts.ring]\nkind = "pin"\n'
         'diameter = 8.0\nlength = 3.0\nbore_diameter = 4.0\n[[mates]]\nkind = "coaxial"\nfirst = "pin"\n'
         'second = "ring"\n[[exports]]\nformat = "step"\nassembly = true\n', encoding="utf-8",
     )  # fmt: skip
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
-    assert main(["verify", str(tmp_path / "pin" / "pin.step")]) == 0
-    assert read_step_assembly(tmp_path / "pin" / "pin.step").title == "pin.assembly"
+    assert main(["verify", str(tmp_path / "Pin" / "Pin.step")]) == 0
+    assert read_step_assembly(tmp_path / "Pin" / "Pin.step").title == "Pin.assembly"

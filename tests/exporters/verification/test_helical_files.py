@@ -19,6 +19,7 @@ from exporters.formats.stl import write_stl
 from exporters.verification.mesh import verify_mesh
 from geometry.base.record import replace
 from geometry.solids.body import Body
+from parts.base.readback import ReadError
 from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
@@ -114,6 +115,27 @@ def test_large_meshes_are_written_and_read_back_in_little_memory(tmp_path: Path)
         tracemalloc.stop()
     assert not verdict.failures
     assert most < 350 * len(mesh.triangles)
+
+
+def test_every_block_of_a_mesh_is_judged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One corner off its wall, and a normal of the last block turned over: neither is lost among the blocks."""
+    for block in ("formats.read_stl._AT_ONCE", "verification.topology.AT_ONCE", "verification.twisted.AT_ONCE"):
+        monkeypatch.setattr(f"exporters.{block}", 64)
+    body = body_of(GEAR)
+    mesh = body_mesh(body, mesh_outlines(body, 0.05, 1e-6))
+    levels = mesh.vertices[:, 2]
+    reach = np.hypot(*mesh.vertices.T[:2]) * ((levels > levels.min()) & (levels < levels.max()))
+    moved, most = mesh.vertices.copy(), reach.argmax()
+    moved[most, :2] *= 1 + 0.3 / reach[most]
+    verdict = verify_mesh(ReadMesh(moved, mesh.triangles), body, 0.05, 0.05)
+    assert verdict.measured["max_deviation"] == pytest.approx(0.3, rel=1e-6)
+    file = tmp_path / "g.stl"
+    write_stl(file, mesh)
+    data = bytearray(file.read_bytes())
+    data[-50:-38] = (-np.frombuffer(data[-50:-38], "<f4")).tobytes()
+    file.write_bytes(data)
+    with pytest.raises(ReadError, match="contradicts"):
+        read_stl(file)
 
 
 def _area_times_width(keys: dict[str, Any]) -> float | None:

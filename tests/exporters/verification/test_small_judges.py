@@ -12,8 +12,11 @@ import pytest
 
 from exporters.drawings.verify import _check_circles
 from exporters.formats.read_solid import Model
+from exporters.formats.readback import ReadMesh
 from exporters.verification import area
 from exporters.verification.board import BoardPiece
+from exporters.verification.topology import areas, chains, volume_in
+from parts.base.readback import ReadError
 from parts.drawing.readback import ReadSheet, Taken
 
 
@@ -64,3 +67,19 @@ def test_a_pitch_line_is_one_of_the_lines_of_its_layer(radius: float, found: boo
     _check_circles(sheet, cast("Any", SimpleNamespace(circles=circles)), taken)
     assert len(taken.failures) == (not found)
     assert taken.measured == {"circles": 1, "circle_deviation": pytest.approx(5e-4 if found else 2e-3)}
+
+
+def test_a_corner_of_a_block_has_its_areas_and_volume() -> None:
+    """Three edges of 2, 3 and 4 mm that stand across each other."""
+    corners = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]])
+    mesh = ReadMesh(corners, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    assert areas(mesh) == pytest.approx([3.0, 4.0, 6.0, math.sqrt(61.0)])
+    assert volume_in(mesh) == pytest.approx(4.0)
+
+
+def test_outlines_that_meet_in_a_point_are_no_chains() -> None:
+    """Two triangles on one level have a corner in common, from which an edge of either starts."""
+    apart, meeting = np.array([[0, 1, 2], [3, 4, 5]]), np.array([[0, 1, 2], [0, 3, 4]])
+    assert sorted(map(sorted, chains(apart, np.zeros(6), 0.0))) == [[0, 1, 2], [3, 4, 5]]
+    with pytest.raises(ReadError, match="touches itself"):
+        chains(meeting, np.zeros(5), 0.0)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 
 from geometry.approximation import arcs as fitting
 from geometry.approximation.arcs import arc_error, arc_spline
-from geometry.approximation.chords import approximate_profile, chord_error, chord_parameters
+from geometry.approximation.chords import approximate_profile, approximate_together, chord_error, chord_parameters
 from geometry.base.errors import ConvergenceError
 from geometry.base.placement import Placement2
 from geometry.curves.curve import Curve
@@ -357,3 +357,14 @@ def test_one_arc_alone_is_tried_once(monkeypatch: pytest.MonkeyPatch) -> None:
     arc_spline(FLANK, 10.0)
     arc_spline(FILLET, 10.0)
     assert tried.count(1) == 2
+
+
+@pytest.mark.parametrize("upside_down", [False, True])
+def test_a_wall_between_chords_that_lean_is_told_whichever_way_it_is_named(upside_down: bool) -> None:
+    """Its error is a quarter of how far the end of the longer chord stands off the other's direction."""
+    large = np.array([0j, 4.0, 1 + 3j])
+    triangles = large, large * np.exp(0.02j) / 4
+    profiles = [Profile(tuple(Segment(Line(a, b), Label.CAM) for a, b in zip(t, np.roll(t, -1), strict=True)))
+                for t in triangles]  # fmt: skip
+    made = approximate_together(profiles, {(1, 0) if upside_down else (0, 1)}, 9.0)
+    assert [one.max_error for one in made] == pytest.approx([abs(3 - 3j) * math.sin(0.02) / 4] * 2)

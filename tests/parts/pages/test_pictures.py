@@ -357,6 +357,6 @@ def test_an_error_map_of_one_value_has_one_colour_and_no_reach() -> None:
 
 def test_a_power_behind_an_index_stands_on_the_line() -> None:
     """The square of a driver's velocity was small and low, as a part of its index."""
-    made = ElementTree.fromstring(written(0, 0, "ε_2/ω_1²"))
-    assert "".join(made.itertext()) == "ε2/ω1²"
-    assert [one.text for one in made if "font-size" in one.get("style", "")] == ["2", "1"]
+    made = ElementTree.fromstring(written(0, 0, "ε_2/ω_1² + β_2/ω_3³"))
+    assert "".join(made.itertext()) == "ε2/ω1² + β2/ω3³"
+    assert [one.text for one in made if "font-size" in one.get("style", "")] == ["2", "1", "2", "3"]

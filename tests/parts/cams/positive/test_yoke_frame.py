@@ -72,6 +72,13 @@ def test_solids_and_offsets() -> None:
             assert part.to_trimesh(0.01, offset).is_watertight
 
 
+def test_a_stem_below_alone_has_its_width() -> None:
+    yoke = YOKE | {"stem_above": 0.0, "stem_below": 20.0, "stem_width": 9.0}
+    outer = parts_of({"cam": ROLLERS, "yoke": yoke})["yoke"].section(0.0).region.outer
+    ends = np.array([s.curve.point(s.curve.domain[0]) for s in outer.segments()])
+    assert np.ptp(ends[ends.imag < ends.imag.min() + 1e-9].real) == pytest.approx(9.0)
+
+
 # the cam, keys of the yoke, the key that is blamed, why
 WRONG: dict[str, tuple[Keys, Keys, str, str]] = {
     "uneven": (FLAT | {"phases": [EVEN[0] | {"angle_deg": 110.0}, *EVEN[1:3], EVEN[3] | {"angle_deg": 70.0}]}, {},

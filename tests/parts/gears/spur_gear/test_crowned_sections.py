@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from geometry.plane.profile import Label
+from geometry.solids.body import Body
 from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import Keys
 
@@ -21,6 +22,7 @@ def test_flanks_go_back_along_their_normals(below: float, above: float, offset: 
     """By c = C (2 z / b - 1)^2: each turns by c / r_b about the axis; a chamfer lowers the tips at its own end."""
     keys = GEAR | {"face_chamfer": {"below": below, "above": above}}
     body = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"].body(offset)
+    assert isinstance(body, Body)
     base, alpha = 23.0 * math.cos(math.radians(20)), math.radians(20)
     for z in (0.1, 2.0, 6.0, 11.4):
         there = [wall for wall in body.walls if body.height(wall)[0] <= z <= body.height(wall)[1]]
@@ -28,7 +30,7 @@ def test_flanks_go_back_along_their_normals(below: float, above: float, offset: 
         depth = max(below - z, z - (WIDTH - above), 0.0)
         assert profile.reach() == pytest.approx(25.0 + offset - depth, abs=0.01)
         flanks = [s.curve for s in profile.segments() if s.label == Label.FLANK]
-        points = np.concatenate([curve.point(np.linspace(*curve.domain, 5)) for curve in flanks])
+        points = np.concatenate([curve.point(np.linspace(curve.domain[0], curve.domain[1], 5)) for curve in flanks])
         pressed = np.arccos(base / np.abs(points))
         half = math.pi / 46 + math.tan(alpha) - alpha - np.tan(pressed) + pressed
         moved = CROWNING * (2 * z / WIDTH - 1) ** 2 + depth - offset
