@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
-from geometry.cams.barrel.rolling import rolled_places, wall_height
+from geometry.cams.barrel.rolling import held, rolled_places, wall_height
 from geometry.cams.motion.follower_motion import TURN
 from tests.geometry.cams.barrel.test_barrel import AXIAL, CONES, INNER, OUTER, SWINGING
 
@@ -76,3 +76,20 @@ def test_a_roller_rests_on_walls_at_every_angle() -> None:
         half = rolled_places(AXIAL, {side: corners[:100]}, 40)[side]
         assert np.isfinite(half).any()
         assert not np.isfinite(half).all()
+
+
+@pytest.mark.parametrize("cam", [AXIAL, SWINGING], ids=["axial", "swinging"])
+@pytest.mark.parametrize("side", [UPPER, LOWER])
+@pytest.mark.parametrize("start", [0.6, 2.0])
+def test_a_wide_triangle_leaves_the_wall_by_no_more_than_is_told(cam: BarrelCam, side: int, start: float) -> None:
+    """Its corners lie on the wall, and what stands farthest in the roller, or off it, is a place between them."""
+    ends = zip(start + np.array([0.0, 0.25, 0.1]), (INNER + 2, INNER + 2, OUTER - 2), strict=True)
+    corners = np.concatenate(
+        [cam.wall(np.array([angle]), side, np.array([radius])).reshape(1, 3) for angle, radius in ends]
+    )
+    u, v = (share.ravel() for share in np.meshgrid(np.linspace(0, 1, 41), np.linspace(0, 1, 41)))
+    points = np.stack([u * v, u * (1 - v), 1 - u], axis=1) @ corners
+    angles = np.linspace(start - 0.3, start + 0.6, 601)[:, None]
+    heights = held(cam, side, points[None, :, 0] + 1j * points[None, :, 1], points[None, :, 2], angles)[0].max(axis=0)
+    found = wall_height(cam, {side: corners[None]}, 1e-6)
+    assert np.abs(heights).max() <= found.bound <= 1.025 * np.abs(heights).max()
