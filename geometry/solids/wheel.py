@@ -254,9 +254,9 @@ class _Wheel:
         _check_wall(heights[1] - heights[0], cuts, who)
         stations = [(whole, *s) for s in (twist or self.upright).stations(*heights, cuts)]
         if cuts[0] > 0:
-            stations.insert(0, (_inset(profile, self.offset, cuts[0], "below", who), heights[0], *stations[0][2:]))
+            stations.insert(0, (inset_of(profile, self.offset, cuts[0], "below", who), heights[0], *stations[0][2:]))
         if cuts[1] > 0:
-            inset = stations[0][0] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
+            inset = stations[0][0] if cuts[1] == cuts[0] else inset_of(profile, self.offset, cuts[1], "above", who)
             stations.append((inset, heights[1], *stations[-1][2:]))
         loops = [self.made.loop(*station) for station in stations]
         at = cache(partial(profile, self.offset))
@@ -279,7 +279,7 @@ def _snapped(z: float, face: float) -> float:
     return face if abs(z - face) <= _LEAST_HEIGHT else z
 
 
-def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str) -> Profile:
+def inset_of(profile: Boundary, offset: float, chamfer: float, side: str, who: str) -> Profile:
     """A boundary moved ``chamfer`` mm into the material, segment for segment that of the whole boundary."""
     before = profile(offset, 0.0).period
     whole = [s.label for s in before]

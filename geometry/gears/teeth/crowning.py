@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from geometry.base.errors import GeometryError
 from geometry.base.record import replace
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Profile
+from geometry.solids.wheel import inset_of
 
 if TYPE_CHECKING:
     from geometry.solids.body import BodyBuilder
@@ -50,6 +51,11 @@ def crowned_teeth(
     """Teeth relieved by ``crowning`` at both faces, with face chamfers below and above; mm.
 
     ``outline`` makes that of a gear, moved out of the material and then cut so deep by a chamfer.
+
+    Raises
+    ------
+    ParameterError
+        A chamfer leaves no tooth at a face.
     """
     below, above = chamfers
 
@@ -62,6 +68,9 @@ def crowned_teeth(
             depth = max(below - z, z - (width - above), 0.0)
             return section(round(crowning * (2 * z / width - 1) ** 2, _DIGITS), round(depth, _DIGITS))
 
+        for side, chamfer in (("below", below), ("above", above)):
+            if chamfer:
+                inset_of(partial(outline, relieved(gear, crowning)), min(offset, 0.0), chamfer, side, "outline")
         # a chamfer beyond the middle goes on with the crowning there: walls of the bore end with it
         middle = min(max(below, width / 2), width - above)
         levels = sorted({0.0, below, middle, width - above, width})

@@ -108,6 +108,18 @@ def test_crowning_that_cannot_be_is_refused(keys: Keys, code: str) -> None:
     assert refused(**keys | {"crowning": offered + 2e-3}) is not None
 
 
+@pytest.mark.parametrize("keys", [{}, {"bore_diameter": 0.0, "tip_relief": {"depth_coefficient": 0.02}}])
+def test_a_chamfer_that_leaves_no_tooth_is_refused_by_its_own_key(keys: Keys) -> None:
+    """As without crowning, with a depth that works: a diameter was refused that is no key."""
+    refusal = refused(**keys, face_chamfer={"below": 1.4})
+    assert refusal is not None
+    assert (refusal.key, refusal.code) == ("parts.p.face_chamfer.below", "chamfer_leaves_nothing_of_outline")
+    assert refusal.nearest is not None
+    offered = float(refusal.nearest.value)  # type: ignore[arg-type]
+    assert refused(**keys, face_chamfer={"below": offered}) is None
+    assert refused(**keys, face_chamfer={"below": offered + 0.01}) is not None
+
+
 def test_a_chamfer_may_reach_beyond_the_middle(tmp_path: Path) -> None:
     """The bore's is one with it: the teeth's was cut in the middle, the bore's not, and the mesh was refused."""
     chamfers = {"below": {"below": 0.7, "above": 0.2}, "above": {"above": 0.7}}
