@@ -305,10 +305,8 @@ def _moments(body: Body, holes: Sequence[CrossHole]) -> Moments:
         lost = float(weight @ length)
         axes = np.array([[-math.sin(hole.angle), math.cos(hole.angle), 0.0],
                          [math.cos(hole.angle), math.sin(hole.angle), 0.0], [0.0, 0.0, 1.0]])  # fmt: skip
-        moved = axes.T @ np.array([weight @ (across * length), weight @ square, 0.0])
-        mixed = weight @ (across * square)
-        tensor = np.array([[weight @ (across**2 * length), mixed, 0.0], [mixed, weight @ cube, 0.0],
-                           [0.0, 0.0, weight @ (high**2 * length) / 12]])  # fmt: skip
+        moved = axes.T @ np.array([0.0, weight @ square, 0.0])
+        tensor = np.diag([weight @ (across**2 * length), weight @ cube, weight @ (high**2 * length) / 12])
         up = hole.height * axes[2]
         volume -= lost
         first = first - moved - lost * up

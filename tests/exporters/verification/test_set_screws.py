@@ -99,12 +99,21 @@ def test_files_of_other_holes_fail(folder: Path, tmp_path: Path, change: Keys, e
     assert run("verify", tmp_path / file.name) == 1
 
 
-@pytest.mark.parametrize(("offset", "builds"), [(-0.3, False), (-0.1499, True), (-0.1501, False), (1.3, False)])
+END, FOOT, FLAT = {"above": 7.0}, {"below": 7.0}, {"above": 7.0}
+INSETS = {"end": (END, 2.5, 1.4), "foot": (FOOT, 2.5, 1.4), "flat": (FLAT, 2.9, 3.5)}
+
+
+@pytest.mark.parametrize(
+    ("inset", "offset", "builds"),
+    [("end", -0.3, False), ("end", -0.1499, True), ("end", -0.1501, False), ("end", 1.3, False),
+     ("foot", -0.1501, False), ("flat", -0.2, False), ("flat", -0.03, True)],
+)  # fmt: skip
 def test_an_offset_that_leaves_no_hub_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], offset: float, builds: bool
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], inset: str, offset: float, builds: bool
 ) -> None:
-    """The hole's edge stands 0.15 mm from the end of the hub."""
-    hub = {"diameter": 14.0, "above": 7.0, "set_screws": {"diameter": 2.5, "from_end": 1.4}}
+    """The hole's edge stands 0.15 mm from an end of the hub, or 0.05 mm from that of a flat, which grows by 1.5."""
+    side, diameter, from_end = INSETS[inset]
+    hub = {"diameter": 14.0, **side, "set_screws": {"diameter": diameter, "from_end": from_end}}
     keys = GEAR | {"bore": {"shape": "D", "diameter": 5.0, "flat": 4.5}, "number_of_teeth": 24, "hub": hub}
     scene = write_scene(tmp_path / "s.toml", {"g": keys}, [{"format": "stl", "offset": offset, "tolerance": 0.05}])
     assert (run("build", scene, "--out", tmp_path / "out") == 0) == builds

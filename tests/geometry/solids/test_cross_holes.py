@@ -13,7 +13,7 @@ from geometry.curves.curve import Real
 from geometry.plane.profile import Label, circle
 from geometry.solids.body import Body
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
-from geometry.solids.cross_holes import CrossHole, mouth_in_bore
+from geometry.solids.cross_holes import CrossHole, Mouth, mouth_in_bore
 from geometry.solids.crossed import crossed
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.mass import body_moments
@@ -66,6 +66,11 @@ def test_two_holes_take_twice_as_much() -> None:
     _, blank = blank_of(ROUND)
     lost = [body_moments(blank).volume - crossed(blank, holes).moments.volume for holes in ([one], [one, other])]
     assert lost[1] == pytest.approx(2 * lost[0], rel=1e-12)
+
+
+def test_a_hole_takes_of_a_flat_what_its_edges_are_seen_under() -> None:
+    assert Mouth(0, 0, 2.0, is_round=False).half_angle(1.0) == pytest.approx(math.atan2(1.0, 2.0), rel=1e-12)
+    assert Mouth(0, 0, 2.0, is_round=True).half_angle(1.0) == pytest.approx(math.pi / 6, rel=1e-12)
 
 
 HEXAGON = PolygonBore(6, 5.0, 0.0, UP)

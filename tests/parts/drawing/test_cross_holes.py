@@ -49,6 +49,16 @@ def test_a_hole_in_the_section_is_open_from_bore_to_hub(angle_deg: float, way: i
     assert any({round(c.start.real, 9) for c in loop} == {MIDDLE - HALF, MIDDLE + HALF} for loop in section.hatched)
 
 
+def test_sizes_go_from_the_end_that_stands_out_and_angles_from_the_axis() -> None:
+    low = {"hub": {"diameter": 24.0, "below": 8.0, "set_screws": {"diameter": 3.0, "angle_deg": 50.0, "count": 2}}}
+    section, face = drawing_of(WHEEL | low).views[:2]
+    assert [a.value for a in face.angles] == [pytest.approx(40.0), pytest.approx(90.0)]
+    low["hub"]["set_screws"] |= {"angle_deg": 90.0}
+    inset = next(s for s in drawing_of(WHEEL | low).views[0].sizes if s.name == "hub.set_screws.from_end")
+    assert {inset.start.real, inset.end.real} == {-8.0, -3.75}
+    assert section
+
+
 def test_where_a_hole_meets_bore_and_hub_is_seen_as_it_is() -> None:
     """Points on both cylinders: y = sqrt(R^2 - r^2 + (z - z0)^2) behind the section."""
     section = views_of()[0]
