@@ -81,6 +81,8 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 
 
 _TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=2e6, example=50.0)
+# mm, crowning that leaves every tooth its form
+_LEAST_CROWNING = 1e-6
 _CROWNING = mm("relief of each flank at both faces, none in the middle (C_beta): teeth are barrels", least=0, most=10)
 _PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x (xi in the sources)", least=-10, most=10)
 
@@ -149,6 +151,8 @@ def _check_crowning(keys: SpurGearSpec, gear: SpurGear) -> None:
         return moved_outline(one, 0.0)[0]
 
     fits = partial(has_form, outline, gear)
+    if not fits(_LEAST_CROWNING):
+        raise ParameterError("crowning", keys.crowning, "crowned_full_round", Nearest(0.0))
     if not fits(keys.crowning):
         raise ParameterError("crowning", keys.crowning, "crowned_away", partial(nearest, fits, keys.crowning, 0.0))
 

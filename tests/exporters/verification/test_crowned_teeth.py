@@ -83,6 +83,14 @@ def test_files_of_another_crowning_fail(folder: Path, tmp_path: Path, crowning: 
     assert run("verify", tmp_path / f"plain.{ending}") == 1
 
 
+def test_a_full_round_root_asks_for_a_land() -> None:
+    """The standard rack of 25 degrees is full round."""
+    refusal = refused(pressure_angle_deg=25.0)
+    assert refusal is not None
+    assert (refusal.key, refusal.code) == ("parts.p.crowning", "crowned_full_round")
+    assert refused(pressure_angle_deg=25.0, circumferential_thinning=0.01) is None
+
+
 def refused(**keys: object) -> SceneError | None:
     scene = scene_from_dict({"parts": {"p": GEAR | keys}}, "s.toml", "s")
     try:
