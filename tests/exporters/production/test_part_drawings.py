@@ -464,6 +464,7 @@ def test_refusals_name_their_key() -> None:
     assert jobs(pin | {"diameter": 10.0}, drawing={"shaft": "cd8"})
 
 
+@pytest.mark.heavy
 def test_a_curve_that_no_spline_is_proven_to_follow_is_refused_in_the_tolerance() -> None:
     """A groove nearly as wide as its barrel: the command ended in a traceback, of a laser's DXF it was a refusal."""
     barrel = {"kind": "barrel_cam", "form": "groove", "outer_diameter": 15.0, "groove_depth": 0.024685,

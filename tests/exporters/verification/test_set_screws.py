@@ -88,8 +88,14 @@ def test_what_is_told_of_the_files_is_the_parts_own(folder: Path) -> None:
         assert file["max_error"] <= file["tolerance"]
 
 
-@pytest.mark.parametrize("change", [{"diameter": 2.6}, {"angle_deg": 91.0}, {"from_end": 3.0}, {"count": 1}])
-@pytest.mark.parametrize("ending", ["print.stl", "step"])
+CHANGES: list[Keys] = [{"diameter": 2.6}, {"angle_deg": 91.0}, {"from_end": 3.0}, {"count": 1}]
+
+
+@pytest.mark.parametrize(
+    ("ending", "change"),
+    [*(("step", change) for change in CHANGES), ("print.stl", CHANGES[0]),
+     *(pytest.param("print.stl", change, marks=pytest.mark.heavy) for change in CHANGES[1:])],
+)  # fmt: skip
 def test_files_of_other_holes_fail(folder: Path, tmp_path: Path, change: Keys, ending: str) -> None:
     file, report = (folder / name for name in (f"pinion.{ending}", "report.json"))
     told = json.loads(report.read_text("utf-8"))
