@@ -137,3 +137,9 @@ def test_a_chamfer_may_reach_beyond_the_middle(tmp_path: Path) -> None:
     }
     exports: list[Keys] = [{"format": "stl", "tolerance": 0.02}]
     assert run("build", write_scene(tmp_path / "s.toml", parts, exports), "--out", tmp_path / "out") == 0
+
+
+def test_a_flat_outline_tells_that_it_has_the_middle_alone(tmp_path: Path) -> None:
+    assert run("build", write_scene(tmp_path / "s.toml", {"g": GEAR}, [{"format": "dxf"}]), "--out", tmp_path) == 0
+    (file,) = read_report(tmp_path / "s")["files"]
+    assert "holds only the section" in str(file["findings"])
