@@ -73,8 +73,11 @@ def test_volumes_and_tables_tell_what_is_made(folder: Path) -> None:
     assert "Crowning of each flank" in (folder / "plain.part.svg").read_text("utf-8")
 
 
-@pytest.mark.parametrize("crowning", [0.0, 0.066, 0.054])
-@pytest.mark.parametrize("ending", ["stl", "step"])
+@pytest.mark.parametrize(
+    ("ending", "crowning"),
+    [("stl", 0.066), ("step", 0.054), *(pytest.param(*one, marks=pytest.mark.heavy)
+                                        for one in (("stl", 0.0), ("stl", 0.054), ("step", 0.0), ("step", 0.066)))],
+)  # fmt: skip
 def test_files_of_another_crowning_fail(folder: Path, tmp_path: Path, crowning: float, ending: str) -> None:
     told = json.loads((folder / "report.json").read_text("utf-8"))
     told["scene"]["parts"]["plain"]["crowning"] = crowning
