@@ -151,6 +151,6 @@ class ReadMesh(Record):
         share = (z - a[:, 2]) / (b[:, 2] - a[:, 2])
         points = a[:, :2] + share[:, None] * (b[:, :2] - a[:, :2])
         places = points[:, 0] + 1j * points[:, 1]
-        # the diagonals of upright walls cut their chords in the middle
+        # an edge between two upright ones has a corner on either: it is a diagonal of the plane wall between them
         upright = np.all(a[:, :2] == b[:, :2], axis=1)
-        return np.asarray(places[upright] if upright.sum() >= 3 else places)
+        return np.asarray(places[upright | ~(np.roll(upright, 1) & np.roll(upright, -1))])

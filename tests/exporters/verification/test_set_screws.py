@@ -13,6 +13,7 @@ import shapely
 import trimesh
 from manifold3d import Manifold, Mesh
 
+from exporters.formats.read_stl import read_stl
 from tests.exporters.making import Keys, read_report, run, write_scene
 
 SCREWS: Keys = {"diameter": 2.5, "count": 2, "angle_deg": 90.0, "spacing_deg": 100.0}
@@ -88,6 +89,10 @@ def test_meshes_have_the_holes_where_they_are_told(folder: Path, name: str, stem
     ring = shapely.Point(0, 0).buffer(PARTS[name]["hub"]["diameter"] / 2 + offset, 256)
     want = ring.difference(strips(name, 1.25 - offset)).difference(bore(name, -offset))
     assert shapely.symmetric_difference(want, made).area < 0.02 * want.length
+    # what is read back has all corners of walls about holes, also where these are far off
+    own, *holes = (shapely.Polygon(loop) for loop in solid.slice(1.0).to_polygons())
+    read = sorted(loop.size for loop in read_stl(stl_of(folder, name, stem)).section(1.0))
+    assert read == pytest.approx(sorted(loop.area for loop in (own, *holes)), rel=1e-5)
 
 
 def test_what_is_told_of_the_files_is_the_parts_own(folder: Path) -> None:
