@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -51,13 +52,19 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     # round walls of crowned teeth stand upright between ends of their own
     if beside.any():
         points = np.concatenate([of(model, np.flatnonzero(beside)) for of in (edge_points, inner_points)])
-        off = np.minimum(chamfer_distances(points, body, declared), upright_distances(points, body, declared))
+        off = np.minimum(
+            chamfer_distances(points, body, declared),
+            wall_distances(points, body, filter(body.is_upright, body.walls), declared),
+        )
         deviation = max(deviation, float(off.max()))
     slanted = np.flatnonzero(~flat & ~upright)
     worst = max(worst, deviation)
     if slanted.size:
         points = np.concatenate([edge_points(model, slanted), inner_points(model, slanted)])
-        off = np.minimum(screw_distances(points, body, declared), chamfer_distances(points, body, declared))
+        off = np.minimum(
+            wall_distances(points, body, filter(body.is_screw, body.walls), declared),
+            chamfer_distances(points, body, declared),
+        )
         worst = max(worst, float(off.max()))
     failures += unless(slanted.size or not body.has_screws(), "the solid has no screw surface")
     failures += deviation_failures(worst, declared, tolerance, reach)
@@ -65,28 +72,18 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
-def screw_distances(points: Real, body: Body, declared: float) -> Real:
-    """Distances (n,) of points (n, 3) from the screw surfaces, each within the plane of its own height, mm."""
+def wall_distances(points: Real, body: Body, walls: Iterable[Wall], declared: float) -> Real:
+    """Distances (n,) of points (n, 3) from upright walls or screw surfaces, each within the plane of its own height.
+
+    mm; infinite where none stands at a point's height.
+    """
     best = np.full(len(points), np.inf)
-    for wall in body.walls:
-        if not body.is_screw(wall):
-            continue
+    for wall in walls:
         low, high = body.height(wall)
         mine = np.flatnonzero((points[:, 2] > low - LEVEL) & (points[:, 2] < high + LEVEL))
         back = body.moved_back(wall, points[mine])
         found = distance_to_profile(back, body.loop_profile(wall.lower), trusted=declared)
         best[mine] = np.minimum(best[mine], found)
-    return best
-
-
-def upright_distances(points: Real, body: Body, declared: float) -> Real:
-    """Distances (n,) of points (n, 3) from the upright walls at their heights, mm; infinite where none stands."""
-    best = np.full(len(points), np.inf)
-    for wall in filter(body.is_upright, body.walls):
-        low, high = body.height(wall)
-        mine = np.flatnonzero((points[:, 2] > low - LEVEL) & (points[:, 2] < high + LEVEL))
-        places, profile = points[mine, 0] + 1j * points[mine, 1], body.loop_profile(wall.lower)
-        best[mine] = np.minimum(best[mine], distance_to_profile(places, profile, trusted=declared))
     return best
 
 
