@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 
 from geometry.base.placement import Placement2
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.hyperbola import Hyperbola
 from geometry.curves.line_arc import Arc, Line
@@ -66,23 +66,32 @@ class CutHole(Record):
 
 
 def cut_across(hub: Hub | None, bore: Bore | None, turn: float) -> tuple[CutHole, ...]:
-    """The holes in the plane of a section of a wheel that is turned, rad."""
-    found: list[CutHole] = []
-    if hub is None or bore is None:
+    """The holes in the plane of a section of a wheel that is turned, rad; the first, turned into it, where none is."""
+    if hub is None or bore is None or not hub.set_screws:
         return ()
+    outer = Mouth(0, 0, hub.diameter / 2, is_round=True)
+    found: list[CutHole] = []
     for hole in hub.set_screws:
         way = cmath.rect(1.0, hole.angle + turn)
         inner = mouth_in_bore(bore, hole)
         if abs(way.real) < _NONE and inner is not None:
-            outer = Mouth(0, 0, hub.diameter / 2, is_round=True)
             found.append(CutHole(hole, 1 if way.imag > 0 else -1, inner, outer))
-    return tuple(found)
+    return tuple(found) or (_turned_into(bore, hub.set_screws[0], turn, outer),)
 
 
-def seen_in_bore(hub: Hub | None, turn: float) -> Iterator[Arc]:
-    """Those that open in the bore straight behind the section."""
+def _turned_into(bore: Bore, hole: CrossHole, turn: float, outer: Mouth) -> CutHole:
+    """A hole in the plane of a section where it is drawn (GOST 2.305), on the side where the bore has its own wall."""
+    own = mouth_in_bore(bore, hole)
+    walls = {way: mouth_in_bore(bore, replace(hole, angle=way * math.pi / 2 - turn)) for way in (1, -1)}
+    assert own is not None
+    way = min(walls, key=lambda way: math.inf if (wall := walls[way]) is None else abs(wall.away - own.away))
+    return CutHole(hole, way, walls[way] or own, outer)
+
+
+def seen_in_bore(hub: Hub | None, turn: float, shown: Sequence[CutHole]) -> Iterator[Arc]:
+    """Those that open in the bore straight behind the section, without those shown in it."""
     for hole in () if hub is None else hub.set_screws:
-        if abs(cmath.rect(1.0, hole.angle + turn) - 1) < _NONE:
+        if abs(cmath.rect(1.0, hole.angle + turn) - 1) < _NONE and all(cut.hole != hole for cut in shown):
             yield Arc(complex(hole.height), hole.radius, 0.0, math.tau)
 
 

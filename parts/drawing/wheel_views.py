@@ -382,8 +382,8 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
             axes += [level(row, way * half.reference) for row in wheel.rows()]
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in (*edges, *spline.roots)]
-    strokes += [(VISIBLE, rim) for rim in seen_in_bore(shape.hub, wheel.turn)]
     across = cut_across(shape.hub, holes.bore, wheel.turn)
+    strokes += [(VISIBLE, rim) for rim in seen_in_bore(shape.hub, wheel.turn, across)]
     strokes = opened(strokes, across)
     hatched += [hole.loop() for hole in across]
     axes += [hole.axis() for hole in across]

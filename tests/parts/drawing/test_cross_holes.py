@@ -76,9 +76,31 @@ def test_where_a_hole_meets_bore_and_hub_is_seen_as_it_is() -> None:
 
 
 def test_a_hole_behind_the_section_is_a_circle_in_the_bore() -> None:
-    section = views_of(angle_deg=0.0)[0]
+    section = views_of(angle_deg=0.0, count=2)[0]
     assert [(c.centre, c.radius) for c in drawn(section, Arc) if abs(c.sweep) > 6] == [(MIDDLE, HALF)]
-    assert not any(s.name.startswith("hub.set_screws") for s in section.sizes)
+
+
+@pytest.mark.parametrize(
+    ("bore", "angle_deg", "way", "wall"),
+    [(None, 0.0, 1, 6.0), (None, 45.0, 1, 6.0), (None, 180.0, 1, 6.0),
+     # the keyway stands above: the hole's own wall is that below; the flat is nobody's wall but its own
+     ({"shape": "keyway", "diameter": 12.0}, 0.0, -1, 6.0),
+     ({"shape": "D", "diameter": 12.0, "flat": 10.0, "angle_deg": 30.0}, 110.0, -1, 6.0),
+     ({"shape": "D", "diameter": 12.0, "flat": 10.0, "angle_deg": 0.0}, 0.0, 1, 4.0)],
+)  # fmt: skip
+def test_holes_beside_the_plane_of_the_section_are_turned_into_it_and_sized(
+    bore: dict[str, Any] | None, angle_deg: float, way: int, wall: float
+) -> None:
+    hub = WHEEL["hub"] | {"set_screws": {"diameter": 3.0, "angle_deg": angle_deg}}
+    wheel = {k: v for k, v in WHEEL.items() if bore is None or k != "bore_diameter"} | ({"bore": bore} if bore else {})
+    section = drawing_of(wheel | {"hub": hub}).views[0]
+    sizes = {s.name: s.value for s in section.sizes if s.name.startswith("hub.set_screws")}
+    assert sizes == pytest.approx({"hub.set_screws.diameter": 3.0, "hub.set_screws.from_end": 4.25})
+    lines = drawn(section, Line)
+    for z in (MIDDLE - HALF, MIDDLE + HALF):
+        assert any({c.start, c.end} == {complex(z, wall * way), complex(z, 12 * way)} for c in lines)
+    # it is shown once
+    assert not [c for c in drawn(section, Arc) if abs(c.sweep) > 6]
 
 
 def test_holes_hidden_in_the_hub_stand_at_their_angles() -> None:
