@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -71,41 +72,12 @@ def read_glb(file: Path) -> ReadGlb:
 
 
 def _read(data: bytes) -> ReadGlb:
-    words = np.frombuffer(data[:20], "<u4")
-    if data[:4] != b"glTF" or words[1] != 2 or words[2] != len(data) or data[16:20] != b"JSON":
-        raise ReadError("does not begin as a binary glTF 2.0 of its length")
-    end = 20 + int(words[3])
-    scene = json.loads(data[20:end])
-    size = int(np.frombuffer(data[end : end + 4], "<u4")[0])
-    blob = data[end + 8 :]
-    if data[end + 4 : end + 8] != b"BIN\0" or len(blob) != size or scene["buffers"] != [{"byteLength": size}]:
-        raise ReadError("its binary part is not as long as it says")
-    if set(scene) - _KNOWN or scene["asset"]["version"] != "2.0" or scene["scene"] != 0:
-        raise ReadError(f"holds {sorted(set(scene) - _KNOWN)}, which our files do not")
-
-    def array(number: int) -> NDArray[Any]:
-        told = scene["accessors"][number]
-        view = scene["bufferViews"][told["bufferView"]]
-        width, kind = _WIDTH[told["type"]], _KIND[told["componentType"]]
-        start, length = view["byteOffset"], view["byteLength"]
-        if length != 4 * width * told["count"] or start < 0 or start + length > size:
-            raise ReadError(f"accessor {number} does not fit its bytes")
-        values = np.frombuffer(blob[start : start + length], kind).reshape(-1, width)
-        refuse_if(kind == "<f4" and not np.isfinite(values).all(), f"a number of accessor {number} is none")
-        for key, bound in (("min", values.min(axis=0)), ("max", values.max(axis=0))):
-            if key in told and told[key] != bound.tolist():
-                raise ReadError(f"accessor {number} says another {key} than its numbers have")
-        return values.astype(np.float64 if kind == "<f4" else np.int64)
-
-    solids = {}
+    scene, blob = _chunks(data)
+    array = partial(_array, scene, blob)
+    solids: dict[str, ReadMesh] = {}
     for mesh in scene["meshes"]:
-        (primitive,) = mesh["primitives"]
-        if set(primitive) != {"attributes", "indices", "material"} or set(primitive["attributes"]) != {"POSITION"}:
-            raise ReadError(f"solid {mesh['name']} is not a mesh of triangles alone")
-        vertices, triangles = array(primitive["attributes"]["POSITION"]), array(primitive["indices"]).reshape(-1, 3)
-        if triangles.max() >= len(vertices) or mesh["name"] in solids:
-            raise ReadError(f"solid {mesh['name']} has corners that are not there")
-        solids[mesh["name"]] = ReadMesh(vertices, triangles)
+        refuse_if(mesh["name"] in solids, f"has two solids {mesh['name']}")
+        solids[mesh["name"]] = _solid(mesh, array)
     root, *nodes = scene["nodes"]
     if (
         scene["scenes"] != [{"nodes": [0]}]
@@ -119,18 +91,63 @@ def _read(data: bytes) -> ReadGlb:
     names, tracks = list(solids), {}
     for number, node in enumerate(nodes, 1):
         ways = {p: moved.pop((number, p), None) for p in ("translation", "rotation")}
-        if node["name"] in tracks or set(node) != {"name", "mesh", *(p for p, way in ways.items() if way is None)}:
-            raise ReadError(f"instance {node.get('name')} is not one solid with one place and one turn")
-        places, turns = (
-            (np.zeros(1), np.array([node[p]], dtype=float)) if way is None else way for p, way in ways.items()
-        )
-        if places[1].shape[1] != 3 or turns[1].shape[1] != 4:
-            raise ReadError(f"instance {node['name']} has a place or turn of the wrong width")
-        if np.abs(np.linalg.norm(turns[1], axis=1) - 1).max() > _UNIT:
-            raise ReadError(f"instance {node['name']} has a turn that is none")
-        tracks[node["name"]] = ReadSolidTrack(names[node["mesh"]], places, turns)
+        refuse_if(node["name"] in tracks, f"has two instances {node['name']}")
+        tracks[node["name"]] = _track(node, ways, names)
     refuse_if(moved, "moves what is not there")
     return ReadGlb(solids, tracks, seconds)
+
+
+def _chunks(data: bytes) -> tuple[dict[str, Any], bytes]:
+    """What it says of itself, and its numbers."""
+    words = np.frombuffer(data[:20], "<u4")
+    if data[:4] != b"glTF" or words[1] != 2 or words[2] != len(data) or data[16:20] != b"JSON":
+        raise ReadError("does not begin as a binary glTF 2.0 of its length")
+    end = 20 + int(words[3])
+    scene = json.loads(data[20:end])
+    size = int(np.frombuffer(data[end : end + 4], "<u4")[0])
+    blob = data[end + 8 :]
+    if data[end + 4 : end + 8] != b"BIN\0" or len(blob) != size or scene["buffers"] != [{"byteLength": size}]:
+        raise ReadError("its binary part is not as long as it says")
+    if set(scene) - _KNOWN or scene["asset"]["version"] != "2.0" or scene["scene"] != 0:
+        raise ReadError(f"holds {sorted(set(scene) - _KNOWN)}, which our files do not")
+    return scene, blob
+
+
+def _array(scene: dict[str, Any], blob: bytes, number: int) -> NDArray[Any]:
+    """The numbers of an accessor, a row for each of its items."""
+    told = scene["accessors"][number]
+    view = scene["bufferViews"][told["bufferView"]]
+    width, kind = _WIDTH[told["type"]], _KIND[told["componentType"]]
+    start, length = view["byteOffset"], view["byteLength"]
+    if length != 4 * width * told["count"] or start < 0 or start + length > len(blob):
+        raise ReadError(f"accessor {number} does not fit its bytes")
+    values = np.frombuffer(blob[start : start + length], kind).reshape(-1, width)
+    refuse_if(kind == "<f4" and not np.isfinite(values).all(), f"a number of accessor {number} is none")
+    for key, bound in (("min", values.min(axis=0)), ("max", values.max(axis=0))):
+        if key in told and told[key] != bound.tolist():
+            raise ReadError(f"accessor {number} says another {key} than its numbers have")
+    return values.astype(np.float64 if kind == "<f4" else np.int64)
+
+
+def _solid(mesh: dict[str, Any], array: Callable[[int], NDArray[Any]]) -> ReadMesh:
+    (primitive,) = mesh["primitives"]
+    if set(primitive) != {"attributes", "indices", "material"} or set(primitive["attributes"]) != {"POSITION"}:
+        raise ReadError(f"solid {mesh['name']} is not a mesh of triangles alone")
+    vertices, triangles = array(primitive["attributes"]["POSITION"]), array(primitive["indices"]).reshape(-1, 3)
+    refuse_if(triangles.max() >= len(vertices), f"solid {mesh['name']} has corners that are not there")
+    return ReadMesh(vertices, triangles)
+
+
+def _track(node: dict[str, Any], ways: dict[str, tuple[Real, Real] | None], solids: list[str]) -> ReadSolidTrack:
+    """Where an instance stands, or how it moves; ``ways``: what of it moves, by times and values."""
+    if set(node) != {"name", "mesh", *(p for p, way in ways.items() if way is None)}:
+        raise ReadError(f"instance {node.get('name')} is not one solid with one place and one turn")
+    places, turns = ((np.zeros(1), np.array([node[p]], dtype=float)) if way is None else way for p, way in ways.items())
+    if places[1].shape[1] != 3 or turns[1].shape[1] != 4:
+        raise ReadError(f"instance {node['name']} has a place or turn of the wrong width")
+    if np.abs(np.linalg.norm(turns[1], axis=1) - 1).max() > _UNIT:
+        raise ReadError(f"instance {node['name']} has a turn that is none")
+    return ReadSolidTrack(solids[node["mesh"]], places, turns)
 
 
 def _moved(

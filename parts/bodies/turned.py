@@ -403,27 +403,37 @@ def _check_shaft(keys: ShaftSpec) -> None:
         if keys.bore_diameter >= least:
             most = most_of(least, keys.bore_diameter)
             raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", most)
-        place = step.chamfer
-        for number, groove in sorted(enumerate(step.grooves, 1), key=lambda pair: pair[1].at):
-            name = f"steps[{k}].grooves[{number}]"
-            if groove.diameter >= step.diameter:
-                cure = most_of(step.diameter, groove.diameter)
-                raise ParameterError(f"{name}.diameter", groove.diameter, "groove_not_in_step", cure)
-            room = step.length - step.chamfer
-            if groove.at <= place or groove.at + groove.width >= room:
-                raise _groove_beyond(name, groove, place, room, step.length)
-            # both of its corners, and its walls
-            if groove.fillet > (widest := min(groove.width, step.diameter - groove.diameter) / 2):
-                cure = limit(widest, groove.fillet, digits=6)
-                raise ParameterError(f"{name}.fillet", groove.fillet, "corner_longer_than_edge", cure)
-            place = groove.at + groove.width
-            inside = 2 * _inside(keys, min(z + groove.at, whole - z - place))
-            if groove.diameter <= inside:
-                cure = least_of(inside, groove.diameter)
-                raise ParameterError(f"{name}.diameter", groove.diameter, "groove_into_centre_hole", cure)
+        _check_grooves(keys, k, z, whole)
         z += step.length
-    mouth = _mouth(keys)
-    if (centre := keys.centre_holes) is not None and mouth <= centre.diameter:
+    _check_ends(keys, whole)
+
+
+def _check_grooves(keys: ShaftSpec, k: int, z: float, whole: float) -> None:
+    """Grooves of step ``k`` (from 1), which begins at ``z``, apart and clear of centre holes, or a ParameterError."""
+    step = keys.steps[k - 1]
+    place, room = step.chamfer, step.length - step.chamfer
+    for number, groove in sorted(enumerate(step.grooves, 1), key=lambda pair: pair[1].at):
+        name = f"steps[{k}].grooves[{number}]"
+        if groove.diameter >= step.diameter:
+            cure = most_of(step.diameter, groove.diameter)
+            raise ParameterError(f"{name}.diameter", groove.diameter, "groove_not_in_step", cure)
+        if groove.at <= place or groove.at + groove.width >= room:
+            raise _groove_beyond(name, groove, place, room, step.length)
+        # both of its corners, and its walls
+        if groove.fillet > (widest := min(groove.width, step.diameter - groove.diameter) / 2):
+            cure = limit(widest, groove.fillet, digits=6)
+            raise ParameterError(f"{name}.fillet", groove.fillet, "corner_longer_than_edge", cure)
+        place = groove.at + groove.width
+        inside = 2 * _inside(keys, min(z + groove.at, whole - z - place))
+        if groove.diameter <= inside:
+            cure = least_of(inside, groove.diameter)
+            raise ParameterError(f"{name}.diameter", groove.diameter, "groove_into_centre_hole", cure)
+
+
+def _check_ends(keys: ShaftSpec, whole: float) -> None:
+    """End faces keep a ring about the bore or the mouth of a centre hole, or a ParameterError."""
+    mouth, centre = _mouth(keys), keys.centre_holes
+    if centre is not None and mouth <= centre.diameter:
         cure = least_of(centre.diameter, mouth)
         raise ParameterError("centre_holes.mouth", mouth, "mouth_within_pilot", cure, diameter=centre.diameter)
     for k in (1, len(keys.steps)):

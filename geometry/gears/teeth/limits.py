@@ -182,7 +182,7 @@ def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
     section = transverse_gear(gear, helix_angle)
     rim = root_below_bore(section)
     if section.root_radius > 0 and section.bore_diameter > 0 and rim.margin <= 0:
-        most = limit(rim.limit - 1e-4, rim.value)
+        most = limit(rim.limit * (1 - 1e-6), rim.value)
         raise ParameterError("bore_diameter", rim.value, "reaches_root_circle", most, diameter=rim.limit)
     try:
         check_shaping(section)

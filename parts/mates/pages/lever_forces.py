@@ -187,26 +187,14 @@ def _bodies(keys: LeverKeys, levers: Levers, links: list[str]) -> list[tuple[str
         lengths["4"] = second.rod
         if not isinstance(second, Slider):
             lengths["5"] = second.rocker
-    masses, inertias, centres, offsets = (getattr(keys, name) or {} for name in _OF_LINKS)
-    for name, given in zip(_OF_LINKS, (masses, inertias, centres, offsets), strict=True):
-        for link, value in given.items():
-            if link not in links:
-                raise ParameterError(f"{name}.{link}", value, "no_such_link", None, known=links)
-            if name == "inertias" and link == links[-1] and isinstance(second or first, Slider):
-                raise ParameterError(f"{name}.{link}", value, "does_not_turn", REMOVED)
-            if name.startswith("centre") and link not in masses:
-                raise ParameterError(f"{name}.{link}", value, "needs_other", REMOVED, other=f"masses.{link}")
-    if keys.mass_point is not None and "2" in centres:
-        raise ParameterError("centres.2", centres["2"], "other_is_given", REMOVED, other="mass_point")
+    masses, inertias, centres, offsets = _given(keys, links, slides=isinstance(second or first, Slider))
+    shares = {"1": 0.0} | ({} if keys.mass_point is None else {"2": keys.mass_point})
     found = []
     for link in links:
-        if link not in masses and link not in inertias:
-            continue
-        share = 0.0 if link == "1" else 0.5
-        if link == "2" and keys.mass_point is not None:
-            share = keys.mass_point
-        place = complex(centres.get(link, share * lengths.get(link, 0.0)), offsets.get(link, 0.0))
-        found.append((link, Body(link, masses.get(link, 0.0), inertias.get(link, 0.0), place)))
+        if link in masses or link in inertias:
+            along = centres.get(link, shares.get(link, 0.5) * lengths.get(link, 0.0))
+            place = complex(along, offsets.get(link, 0.0))
+            found.append((link, Body(link, masses.get(link, 0.0), inertias.get(link, 0.0), place)))
     places = {"A": ("1", complex(levers.crank)), "B": ("3", complex(levers.lever))}
     if second is not None:
         places |= {"C": ("3", levers.arm), "D": ("5", complex(lengths.get("5", 0.0)))}
@@ -216,6 +204,22 @@ def _bodies(keys: LeverKeys, levers: Levers, links: list[str]) -> list[tuple[str
         link, place = places[point]
         found.append((point, Body(link, mass, 0.0, place)))
     return found
+
+
+def _given(keys: LeverKeys, links: list[str], *, slides: bool) -> list[dict[str, float]]:
+    """What keys give of links, in the order of ``_OF_LINKS``, or a ParameterError; ``slides``: the last one does."""
+    masses, _, centres, _ = tables = [getattr(keys, name) or {} for name in _OF_LINKS]
+    for name, given in zip(_OF_LINKS, tables, strict=True):
+        for link, value in given.items():
+            if link not in links:
+                raise ParameterError(f"{name}.{link}", value, "no_such_link", None, known=links)
+            if name == "inertias" and link == links[-1] and slides:
+                raise ParameterError(f"{name}.{link}", value, "does_not_turn", REMOVED)
+            if name.startswith("centre") and link not in masses:
+                raise ParameterError(f"{name}.{link}", value, "needs_other", REMOVED, other=f"masses.{link}")
+    if keys.mass_point is not None and "2" in centres:
+        raise ParameterError("centres.2", centres["2"], "other_is_given", REMOVED, other="mass_point")
+    return tables
 
 
 def asked(keys: LeverKeys) -> bool:

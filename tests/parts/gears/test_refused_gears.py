@@ -30,6 +30,8 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
                        "hub.set_screws.from_end", "set_screws_out_of_hub"),
     "screws and face": ({**SCREWED, "hub": {"diameter": 14.0, "below": 7.0, "set_screws": {"diameter": 2.5,
                         "from_end": 6.0}}}, "hub.set_screws.from_end", "set_screws_out_of_hub"),
+    "bore of the least modules": ({**SPUR, "module": 0.011, "bore_diameter": 12.0}, "bore_diameter",
+                                  "reaches_root_circle"),
     "pointed": ({**SPUR, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient", "tooth_pointed"),
     "pointed, helical": ({**SPUR, **HELIX, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient",
                          "tooth_pointed"),
@@ -109,7 +111,7 @@ def test_a_refusal_is_told_in_the_keys_of_the_scene_with_the_nearest_that_works(
     found = refused.nearest
     assert found is not None
     assert refusal(with_value(table, key, found.value)) is None
-    step: float = 1 if isinstance(found.value, int) else 1e-3 * max(2.0, abs(found.value))  # type: ignore[arg-type]
+    step: float = 1 if isinstance(found.value, int) else 1e-3 * max(table["module"], abs(found.value))  # type: ignore[arg-type]
     farther = found.value + (step if found.side == "at_most" else -step)  # type: ignore[operator]
     assert refusal(with_value(table, key, farther)) is not None
 
