@@ -30,7 +30,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
                        "hub.set_screws.from_end", "set_screws_out_of_hub"),
     "screws and face": ({**SCREWED, "hub": {"diameter": 14.0, "below": 7.0, "set_screws": {"diameter": 2.5,
                         "from_end": 6.0}}}, "hub.set_screws.from_end", "set_screws_out_of_hub"),
-    "bore of the least modules": ({**SPUR, "module": 0.011, "bore_diameter": 12.0}, "bore_diameter",
+    "bore of the least modules": ({**SPUR, "module": 0.011, "number_of_teeth": 10, "bore_diameter": 9.0}, "bore_diameter",
                                   "reaches_root_circle"),
     "pointed": ({**SPUR, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient", "tooth_pointed"),
     "pointed, helical": ({**SPUR, **HELIX, "profile_shift_coefficient": 1.9}, "profile_shift_coefficient",
