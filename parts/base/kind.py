@@ -115,10 +115,10 @@ class Kind(Generic[K, T]):
         """
         raise NotImplementedError
 
-    def idle(self, keys: K, others: Others) -> Iterable[tuple[Sequence[str], str]]:
-        """Keys that do nothing beside these, and what they would act with: sizes of a tail, and its length.
+    def idle(self, keys: K, others: Others) -> Iterable[ParameterError]:
+        """The refusals of keys that do nothing beside the others: sizes of a tail, without its length.
 
-        Others are refused to set them; what a part has of them from ``[defaults]`` is passed over.
+        What a part has of them from ``[defaults]`` is passed over.
         """
         return ()
 

@@ -17,7 +17,7 @@ from geometry.base.nearest import last_that_holds
 from geometry.base.record import replace as changed
 from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.kind import HoleAt, Kind, Others
-from parts.keys.base import MOST_LENGTH, MadeKeys, check_idle, mm, part_mm
+from parts.keys.base import MOST_LENGTH, MadeKeys, check_idle, in_vain, mm, part_mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
 
 if TYPE_CHECKING:
@@ -358,14 +358,14 @@ class Plate(Flat[PlateSpec]):
     # linkages have plates among others
     mate_shown = "fixed"
 
-    def idle(self, keys: PlateSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
+    def idle(self, keys: PlateSpec, others: Others) -> Iterator[ParameterError]:
         """How far it goes beyond holes of axles where it has none."""
         if all(hole.axis_of is None for hole in keys.holes):
-            yield ("beyond_axles",), "holes.axis_of"
+            yield from in_vain(keys, ("beyond_axles",), other="holes.axis_of")
 
     def thing(self, keys: PlateSpec, others: Others) -> PlateOutline:
         """The outline, checked: holes that keep their walls, else the side that is long enough for those of axles."""
-        check_idle(keys, self.idle(keys, others))
+        check_idle(self.idle(keys, others))
         try:
             return self._outline(keys)
         except ParameterError as refusal:

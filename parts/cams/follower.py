@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from msgspec import Meta, field
-from msgspec.structs import fields, replace
+from msgspec.structs import replace
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.nearest import nearest
@@ -19,7 +19,7 @@ from parts.base.kind import Others, Report
 from parts.base.schema import nearest_key
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
 from parts.cams.wheel import Turned
-from parts.keys.base import MOST_LENGTH, degrees, part_mm
+from parts.keys.base import MOST_LENGTH, check_idle, degrees, in_vain, part_mm
 from parts.keys.holes import BoredKeys, check_shape, holes_of, thin_wall, wide_bore
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, shape_of
 
@@ -163,15 +163,16 @@ def _tried(keys: F, refusal: ParameterError, whole: Callable[[F], bool]) -> Para
     return ParameterError(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
 
 
-def _check_end(keys: FollowerSpec | FollowerArmSpec, more: Mapping[str, tuple[str, ...]]) -> None:
-    """Keys that belong to other ends are refused, and a mushroom has a radius."""
-    owners = {"follower_radius": ("mushroom",), "pin_diameter": ("roller",), "tip_angle_deg": ("pointed",), **more}
-    usual = {known.name: known.default for known in fields(keys)}
-    for key, ends in owners.items():
-        value = getattr(keys, key)
-        if value != usual[key] and keys.end not in ends:
-            code = "roller_is_a_part" if (key, keys.end) == ("follower_radius", "roller") else "for_other_ends"
-            raise ParameterError(key, value, code, Nearest(usual[key]), ends=ends)
+# the ends that a key is of
+_OF_ENDS: dict[str, tuple[str, ...]] = {
+    "follower_radius": ("mushroom",), "pin_diameter": ("roller",), "tip_angle_deg": ("pointed",),
+    **dict.fromkeys(("plate_diameter", "plate_thickness", "corner_radius"), ("flat", "mushroom")),
+    "face_offset": ("flat",), "tip_height": ("pointed", "mushroom"),
+}  # fmt: skip
+
+
+def _check_radius(keys: FollowerSpec | FollowerArmSpec) -> None:
+    """A mushroom has a radius."""
     if keys.end == "mushroom" and not keys.follower_radius:
         raise ParameterError("follower_radius", 0.0, "follower_without_radius", end="mushroom")
 
@@ -180,6 +181,13 @@ class Ended(Extruded[F, "FollowerEnd"]):
     """A stem or an arm, by what of it touches the cam."""
 
     drawing = "parts.cams.drawings"
+
+    def idle(self, keys: F, others: Others) -> Iterator[ParameterError]:
+        """Sizes of other ends."""
+        for key, ends in _OF_ENDS.items():
+            if keys.end not in ends and key in keys.__struct_fields__:
+                code = "roller_is_a_part" if (key, keys.end) == ("follower_radius", "roller") else "for_other_ends"
+                yield from in_vain(keys, (key,), code, ends=ends)
 
     def flat(self, thing: FollowerEnd) -> PlateOutline:
         """Its outline."""
@@ -197,7 +205,8 @@ class Follower(Ended[FollowerSpec]):
         from geometry.cams.contact.outlines import FollowerEnd
         from geometry.cams.plane.disk import FollowerKind
 
-        _check_end(keys, dict.fromkeys(("plate_diameter", "plate_thickness", "corner_radius"), ("flat", "mushroom")))
+        check_idle(self.idle(keys, others))
+        _check_radius(keys)
         if keys.end in ("flat", "mushroom") and keys.plate_diameter == 0:
             works = Nearest(2 * keys.stem_width)
             raise ParameterError("plate_diameter", 0.0, "follower_without_plate", works, end=keys.end)
@@ -218,7 +227,8 @@ class FollowerArm(Ended[FollowerArmSpec]):
         from geometry.cams.contact.outlines import FollowerEnd
         from geometry.cams.plane.disk import FollowerKind
 
-        _check_end(keys, {"face_offset": ("flat",), "tip_height": ("pointed", "mushroom")})
+        check_idle(self.idle(keys, others))
+        _check_radius(keys)
         edges = _edges(keys, _arm_edges, _ARM_SIZES)
         own = [("pivot_diameter", 0j, keys.pivot_diameter), ("pin_diameter", keys.arm_length + 0j, keys.pin_diameter)]
         outline = checked_outline(edges, keys, [hole for hole in own if hole[2] > 0])

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta
 
@@ -12,7 +13,7 @@ from geometry.base.record import replace
 from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report, diameters
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import MOST_LENGTH, either, mm, start
+from parts.keys.base import MOST_LENGTH, check_idle, either, in_vain, mm, start
 from parts.keys.holes import holes_of, spoked
 from parts.keys.pins import MARGIN, check_holes, most_of
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -69,17 +70,29 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
     accuracy: AccuracyKey = None
 
 
-def tooth_gap(standard: ToothForm, form: float, displaced: bool) -> IsoForm | SeatedForm:
-    """The form of the gaps by a standard; refused where it has no such ``form`` or displaced seats."""
+class Gapped(Protocol):
+    """Keys that tell the form of the gaps."""
+
+    tooth_form: ToothForm
+    form: float
+    displaced: bool
+
+
+def _idle(keys: Gapped) -> Iterator[ParameterError]:
+    """What is of another standard's form."""
+    for name, standard in (("form", "ISO 606"), ("displaced", "GOST 591")):
+        if keys.tooth_form != standard:
+            yield from in_vain(keys, (name,), "of_another_tooth_form", form=keys.tooth_form)
+
+
+def tooth_gap(keys: Gapped) -> IsoForm | SeatedForm:
+    """The form of the gaps by a standard; refused where it has no such form or displaced seats."""
     from geometry.gears.chains.sprocket import AnsiForm, GostForm, IsoForm
 
-    if form and standard != "ISO 606":
-        raise ParameterError("form", form, "of_another_tooth_form", Nearest(0.0), form=standard)
-    if displaced and standard != "GOST 591":
-        raise ParameterError("displaced", displaced, "of_another_tooth_form", Nearest(False), form=standard)
+    check_idle(_idle(keys))
     forms: dict[str, IsoForm | SeatedForm]
-    forms = {"ISO 606": IsoForm(form), "GOST 591": GostForm(displaced), "ANSI B29.1": AnsiForm()}
-    return forms[standard]
+    forms = {"ISO 606": IsoForm(keys.form), "GOST 591": GostForm(keys.displaced), "ANSI B29.1": AnsiForm()}
+    return forms[keys.tooth_form]
 
 
 class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
@@ -88,11 +101,15 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
     name, keys = "sprocket", SprocketSpec
     drawing = data_table = "parts.chains.drawing"
 
+    def idle(self, keys: SprocketSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of another standard's form."""
+        return _idle(keys)
+
     def thing(self, keys: SprocketSpec, others: Others) -> Sprocket:
         """The sprocket, checked to have teeth that enter the chain, and holes within them."""
         from geometry.gears.chains.sprocket import Sprocket, checked_sprocket
 
-        chain, gap = chain_of_keys(keys), tooth_gap(keys.tooth_form, keys.form, keys.displaced)
+        chain, gap = chain_of_keys(keys), tooth_gap(keys)
         sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, gap, keys.tip_diameter))
         sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
         if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, TypeVar
 
-from parts.base.kind import Kind
-from parts.keys.helix import ToothedKeys
+from geometry.base.errors import ParameterError
+from parts.base.kind import Kind, Others
+from parts.keys.helix import ToothedKeys, idle_helix
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.ring import RingGear
@@ -21,6 +23,10 @@ class ToothedKind(Kind[K, T]):
 
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
+
+    def idle(self, keys: K, others: Others) -> Iterator[ParameterError]:
+        """Two helices without an angle."""
+        return idle_helix(keys)
 
     def sketch(self, keys: K, thing: T) -> Sketch:
         """Circles for its teeth, those of a sector as they are."""

@@ -5,11 +5,11 @@ The annotations are the schema: validation, error texts and ``higherpair new`` a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import Annotated, Any
 
-from msgspec import Meta
+from msgspec import Meta, Struct
 from msgspec.structs import fields
 
 from geometry.base.errors import Nearest, ParameterError
@@ -77,6 +77,22 @@ def either(key: str, value: object, other: str, without: float | None = None) ->
     return ParameterError(key, value, "either_key", Nearest(without), one=other, other=key.rpartition(".")[2])
 
 
+def in_vain(keys: Any, names: Sequence[str], code: str = "needs_other", **told: Any) -> Iterator[ParameterError]:
+    """The refusals of those of some keys that are not as by default and do nothing beside the others."""
+    usual = {field.name: field.default for field in fields(keys)}
+    for name in names:
+        if (value := getattr(keys, name)) != usual[name]:
+            shown = None if isinstance(value, Struct) else value
+            works = Nearest(None if code == "needs_other" else usual[name])
+            yield ParameterError(name, shown, code, works, **told)
+
+
+def check_idle(idle: Iterable[ParameterError]) -> None:
+    """Refuse the first of keys that do nothing."""
+    for refusal in idle:
+        raise refusal
+
+
 def check_not_in_vain(keys: Any, names: Sequence[str], other: str) -> None:
     """Refuse those of some keys that are not as by default: they act only with another one, which is not given.
 
@@ -85,16 +101,7 @@ def check_not_in_vain(keys: Any, names: Sequence[str], other: str) -> None:
     ParameterError
         Of the first such key.
     """
-    usual = {field.name: field.default for field in fields(keys)}
-    for name in names:
-        if (value := getattr(keys, name)) != usual[name]:
-            raise ParameterError(name, value, "needs_other", Nearest(None), other=other)
-
-
-def check_idle(keys: Any, idle: Iterable[tuple[Sequence[str], str]]) -> None:
-    """Refuse what a kind says of keys that do nothing beside the others, each with what it would act with."""
-    for names, other in idle:
-        check_not_in_vain(keys, names, other)
+    check_idle(in_vain(keys, names, other=other))
 
 
 class MadeKeys(MaterialKeys, kw_only=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeAlias
 
@@ -13,7 +13,7 @@ from geometry.base.errors import Cure, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
-from parts.keys.base import MOST_LENGTH, degrees, part_mm, start
+from parts.keys.base import MOST_LENGTH, check_idle, degrees, in_vain, part_mm, start
 from parts.keys.law import LawName, LawTable, PhaseLaw, law_of
 
 if TYPE_CHECKING:
@@ -155,8 +155,7 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
             # a lift of a row, and what it may be left by, stand in the unit of its key
             in_unit = refusal.name.endswith("[2]") or refusal.name == "table_tolerance"
             raise refusal.renamed(refusal.name, 1 / unit if in_unit else None) from refusal
-    if keys.table_tolerance:
-        raise ParameterError("table_tolerance", keys.table_tolerance, "tolerance_without_table", Nearest(0.0))
+    check_idle(idle_tolerance(keys))
     if phases is None:
         raise ParameterError("phases", None, "phases_or_table")
     if not lift > 0:
@@ -202,15 +201,22 @@ def table_quantities(motion: FollowerMotion, *, swings: bool) -> dict[str, float
     return {"table_deviation_deg": math.degrees(motion.left_rows)} if swings else {"table_deviation": motion.left_rows}
 
 
-def check_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "oscillating") -> None:
-    """A follower has a lift or a swing; ``table``: the key of its arm, "" where it is none of its own.
+def idle_tolerance(keys: Moved) -> Iterator[ParameterError]:
+    """The tolerance of a table that is not given."""
+    if keys.motion_table is None:
+        yield from in_vain(keys, ("table_tolerance",), "tolerance_without_table")
 
-    ``tabled``: a table holds its motion.
 
-    Raises
-    ------
-    ParameterError
-        The wrong one is given; without it the follower moves where the other one is given too.
+def idle_motion(keys: Moved, swings: bool, table: str = "oscillating") -> Iterator[ParameterError]:
+    """What is of another follower's travel, or of a table that is not given; see ``idle_stroke``."""
+    yield from idle_stroke(keys, swings, tabled=keys.motion_table is not None, table=table)
+    yield from idle_tolerance(keys)
+
+
+def idle_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "oscillating") -> Iterator[ParameterError]:
+    """A follower has a lift or a swing: the other one, without which it moves where the right one is given too.
+
+    ``table``: the key of its arm, "" where it is none of its own; ``tabled``: a table holds its motion.
     """
     key, other = ("lift", "swing_deg") if swings else ("swing_deg", "lift")
     value = getattr(keys, key)
@@ -218,7 +224,7 @@ def check_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "osci
         return
     code = "swing_without_arm" if table and not swings else "stroke_of_another"
     works = Nearest(0.0) if tabled or getattr(keys, other) != 0 else None
-    raise ParameterError(key, value, code, works, other=other, table=table)
+    yield ParameterError(key, value, code, works, other=other, table=table)
 
 
 def check_dwell(phase: MovingPhase, index: int) -> None:

@@ -13,7 +13,7 @@ from geometry.base.errors import LateError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.gears.teeth.helix import Hand, Helix
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import MadeKeys, degrees, either, mm
+from parts.keys.base import MadeKeys, check_idle, degrees, either, in_vain, mm
 
 if TYPE_CHECKING:
     from geometry.gears.pairs.common_face import CommonFace
@@ -83,6 +83,12 @@ def same_helix(first: ToothedKeys, second: ToothedKeys) -> float:
     return one.angle
 
 
+def idle_helix(keys: ToothedKeys) -> Iterator[ParameterError]:
+    """Two helices without an angle."""
+    if not keys.helix_angle_deg:
+        yield from in_vain(keys, ("double_helical",), "double_helical_without_angle")
+
+
 def checked_teeth(keys: ToothedKeys, number_of_teeth: int) -> Helix:
     """The helix of a part's keys, which belong together.
 
@@ -94,8 +100,7 @@ def checked_teeth(keys: ToothedKeys, number_of_teeth: int) -> Helix:
     if keys.tip_chamfer > 0 and keys.tip_rounding > 0:
         raise either("tip_rounding", keys.tip_rounding, "tip_chamfer", 0.0)
     helix = helix_of(keys)
-    if helix.double and helix.angle == 0:
-        raise ParameterError("double_helical", True, "double_helical_without_angle", Nearest(False))
+    check_idle(idle_helix(keys))
     # how far a helix moves teeth, mm, and the least that each file tells: four steps of an STL's float32
     moved = keys.face_width / (2 if helix.double else 1) * math.tan(helix.angle)
     told = max(_FINEST, 2.0**-22 * math.pi * keys.module * (number_of_teeth + 4))

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-import msgspec
-
-from geometry.base.errors import Nearest, OffsetError, ParameterError
+from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import moved
 from geometry.solids.hub_holes import HubHoles, least_wall
+from parts.base.kind import Others
+from parts.keys.base import check_idle, in_vain
 from parts.keys.holes import holes_of
 from parts.keys.pins import MARGIN, least_of, moved_region, wheel_holes
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -58,6 +59,10 @@ T = TypeVar("T", bound=Sided)
 class SidedKind(WheelKind[K, T]):
     """A kind of wheel that may be a ring."""
 
+    def idle(self, keys: K, others: Others) -> Iterator[ParameterError]:
+        """What a ring has not, or a wheel that is none."""
+        return _idle(keys)
+
     def outline(self, thing: T, offset: float) -> Profile:
         """The outline, moved."""
         return moved(thing.profile, offset)
@@ -75,6 +80,14 @@ class SidedKind(WheelKind[K, T]):
         return super().solid(keys, thing, offset)
 
 
+def _idle(keys: SidedKeys) -> Iterator[ParameterError]:
+    """What a ring has not, or a wheel that is none."""
+    if keys.internal:
+        yield from in_vain(keys, _ONLY_EXTERNAL, "only_of_external")
+    else:
+        yield from in_vain(keys, ("outer_diameter",), "only_of_internal")
+
+
 def sided_holes(keys: SidedKeys, wheel: Sided, reached: str) -> HubHoles:
     """Bore and holes of a wheel, or those in the rim of a ring; ``reached``: the code where holes come to its outline.
 
@@ -83,19 +96,13 @@ def sided_holes(keys: SidedKeys, wheel: Sided, reached: str) -> HubHoles:
     ParameterError
         Names the key and what would work.
     """
+    check_idle(_idle(keys))
     if keys.internal:
         return _ring_holes(keys, wheel, reached)
-    if keys.outer_diameter is not None:
-        raise ParameterError("outer_diameter", keys.outer_diameter, "only_of_internal", Nearest(None))
     return wheel_holes(keys, wheel.root_radius)
 
 
 def _ring_holes(keys: SidedKeys, wheel: Sided, reached: str) -> HubHoles:
-    for key in _ONLY_EXTERNAL:
-        value = getattr(keys, key)
-        if value:
-            raise ParameterError(key, None if isinstance(value, msgspec.Struct) else value, "only_of_external",
-                                 Nearest(None))  # fmt: skip
     holes = holes_of(keys)
     least = least_wall(wheel.root_radius) * (1 + MARGIN)
     for key, group in holes.groups():

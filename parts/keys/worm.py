@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
@@ -12,7 +12,7 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import kept, nearest
-from parts.keys.base import check_not_in_vain, degrees, either, in_modules, mm
+from parts.keys.base import check_idle, degrees, either, in_modules, in_vain, mm
 
 if TYPE_CHECKING:
     from geometry.gears.worms.worm import Worm
@@ -251,6 +251,12 @@ def hob_quotient(given: float | None, worm: float) -> float:
     return given or worm
 
 
+def idle_of_worm(keys: Threaded) -> Iterator[ParameterError]:
+    """The size of a grinding wheel, which cuts one form alone."""
+    if keys.form != "ZK1":
+        yield from in_vain(keys, ("grinding_wheel_diameter",), other='form = "ZK1"')
+
+
 def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0.0) -> Worm:
     """The worm that keys tell, checked to exist.
 
@@ -261,8 +267,7 @@ def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0
     """
     from geometry.gears.worms.worm import Worm
 
-    if keys.form != "ZK1":
-        check_not_in_vain(keys, ("grinding_wheel_diameter",), 'form = "ZK1"')
+    check_idle(idle_of_worm(keys))
     return Worm(
         keys.module,
         keys.number_of_starts,

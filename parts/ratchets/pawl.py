@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,7 +17,7 @@ from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline
-from parts.keys.base import check_idle, degrees, part_mm
+from parts.keys.base import check_idle, degrees, in_vain, part_mm
 from parts.ratchets.wheel import RATCHET_WHEEL, RatchetWheelSpec
 
 if TYPE_CHECKING:
@@ -98,16 +98,16 @@ class PawlKind(Extruded[PawlSpec, Pawl]):
 
     name, keys, made_from = "pawl", PawlSpec, _WHEEL
 
-    def idle(self, keys: PawlSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
+    def idle(self, keys: PawlSpec, others: Others) -> Iterator[ParameterError]:
         """Sizes of a tail that is not there."""
         if not keys.tail_length:
-            yield ("tail_angle_deg", "tail_width"), "tail_length"
+            yield from in_vain(keys, ("tail_angle_deg", "tail_width"), other="tail_length")
 
     def thing(self, keys: PawlSpec, others: Others) -> Pawl:
         """The pawl of another part's wheel, checked to have an outline that keeps off its teeth."""
         from geometry.gears.ratchets.pawl import checked_pawl
 
-        check_idle(keys, self.idle(keys, others))
+        check_idle(self.idle(keys, others))
         owner = owner_of(keys.of, others, RatchetWheelSpec)
         wheel = RATCHET_WHEEL.thing(owner, others)
         try:

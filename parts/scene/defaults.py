@@ -32,11 +32,18 @@ INSTEAD = {
     "normal_backlash": ("circumferential_backlash",),
     "circumferential_backlash": ("normal_backlash",),
     "density": ("material",),
+    "lift": ("swing_deg", "motion_table"),
+    "swing_deg": ("lift", "motion_table"),
+    "phases": ("motion_table", "contour"),
+    "motion_table": ("phases", "contour"),
+    "diameter_quotient": ("lead_angle_deg",),
+    "lead_angle_deg": ("diameter_quotient",),
+    "chain": ("pitch",),
 }
 # keys that say how thick a flat part is
 _THICK = {"parts": ("face_width",), "assemblies": ("face_width", "plate_thickness")}
 # keys that are not one for all
-_OWN = {"kind", "first", "second", "of", "name", "title", "format", "purpose", "parts", "copies"}
+_OWN = {"kind", "first", "second", "of", "name", "title", "format", "purpose", "parts", "copies", "position"}
 
 
 def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) -> tuple[Table, dict[str, str]]:
@@ -96,8 +103,8 @@ def _idle(parts: Mapping[str, Table], source: str) -> Iterator[tuple[str, str]]:
                 specs[part] = converted(table, keys, source, part)
     for part, spec in specs.items():
         with suppress(ParameterError):
-            for names, _ in KINDS[parts[part]["kind"]].idle(spec, specs):
-                yield from ((part, name) for name in names)
+            for refusal in KINDS[parts[part]["kind"]].idle(spec, specs):
+                yield part, refusal.name
 
 
 def as_thick_as_board(raw: Table) -> tuple[Table, dict[str, str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -28,10 +29,11 @@ from parts.cams.barrel_cam.roller import (
 )
 from parts.cams.disk_cam.part import impact_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
+from parts.keys.base import check_idle, in_vain
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
-    check_stroke,
+    idle_motion,
     motion_of,
     rough_law,
     steep,
@@ -57,18 +59,23 @@ _STEEPEST = 89.0
 _SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01, 0.001)
 
 
+def _idle(keys: BarrelCamSpec) -> Iterator[ParameterError]:
+    """What is of another motion, form or roller."""
+    yield from idle_motion(keys, keys.oscillating is not None)
+    if keys.form == "groove":
+        yield from in_vain(keys, ("web_thickness",), "for_end_only")
+    else:
+        yield from in_vain(keys, ("clearance",), "end_without_play")
+    if keys.roller_form == "cylindrical":
+        yield from in_vain(keys, ("cone_angle_deg",), "for_conical_only")
+
+
 def _check_keys(keys: BarrelCamSpec) -> None:
     """Keys that exclude each other."""
-    check_stroke(keys, keys.oscillating is not None, tabled=keys.motion_table is not None)
+    check_idle(_idle(keys))
     bore_of(keys)
     if keys.length is not None and keys.end_margin is not None:
         raise ParameterError("end_margin", keys.end_margin, "follows_from", Nearest(None), key="length")
-    if keys.form == "groove" and keys.web_thickness > 0:
-        raise ParameterError("web_thickness", keys.web_thickness, "for_end_only", Nearest(0.0))
-    if keys.roller_form == "cylindrical" and keys.cone_angle_deg is not None:
-        raise ParameterError("cone_angle_deg", keys.cone_angle_deg, "for_conical_only", Nearest(None))
-    if keys.form == "end" and keys.clearance > 0:
-        raise ParameterError("clearance", keys.clearance, "end_without_play", Nearest(0.0))
 
 
 def _motion(keys: BarrelCamSpec) -> FollowerMotion:
@@ -324,6 +331,10 @@ class Barrel(Kind[BarrelCamSpec, "BarrelBody"]):
     name, keys = "barrel_cam", BarrelCamSpec
     drawing = "parts.cams.barrel_cam.drawing"
     data_table = "parts.cams.data_tables"
+
+    def idle(self, keys: BarrelCamSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of another motion, form or roller."""
+        return _idle(keys)
 
     def thing(self, keys: BarrelCamSpec, others: Others) -> BarrelBody:
         """The solid, checked to guide its roller all the way."""

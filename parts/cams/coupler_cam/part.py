@@ -6,7 +6,7 @@ General plane motion of the follower: Savvin's synthesis of plane cams.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -23,19 +23,20 @@ from parts.cams.disk_cam.part import (
     DiskKind,
     cam_circles,
     check_face,
+    idle_plate,
     impact_findings,
     largest_roller_radius,
     pressure_angles,
     undercut,
 )
 from parts.cams.wheel import DiskKeys, check_disk
-from parts.keys.base import degrees, mm, part_mm, start
+from parts.keys.base import check_idle, degrees, mm, part_mm, start
 from parts.keys.cam import (
     Follower,
     MotionRow,
     Phases,
     TableTolerance,
-    check_stroke,
+    idle_motion,
     motion_of,
     steep,
     stroke_key,
@@ -178,6 +179,12 @@ def _lengths(length: float, refusal: ParameterError) -> list[float]:
     return ends if length <= least else [least + room * (1 - share) for share in _BETWEEN]
 
 
+def _idle(keys: LinkageCamSpec) -> Iterator[ParameterError]:
+    """What is of another follower, or of another motion."""
+    yield from idle_motion(keys, isinstance(keys.driven, DrivenRocker), table="")
+    yield from idle_plate(keys)
+
+
 def linkage_cam_of(keys: LinkageCamSpec) -> LinkageCam:
     """The cam of the keys, not yet checked for undercut; refusals speak of the mathematics."""
     from geometry.cams.plane.coupler import check_holds, linkage_cam
@@ -185,7 +192,7 @@ def linkage_cam_of(keys: LinkageCamSpec) -> LinkageCam:
     from geometry.kinematics.linkage import Linkage
 
     swings = isinstance(keys.driven, DrivenRocker)
-    check_stroke(keys, swings, tabled=keys.motion_table is not None, table="")
+    check_idle(_idle(keys))
     cam = linkage_cam(
         motion_of(keys, swings),
         FollowerKind(keys.follower),
@@ -210,7 +217,7 @@ def _is_whole(keys: LinkageCamSpec) -> bool:
 
 
 def _check_part(keys: LinkageCamSpec, cam: LinkageCam) -> None:
-    check_face(keys, cam, plain=keys.follower in ("flat", "mushroom"))
+    check_face(keys, cam)
     check_disk(keys, cam)
 
 
@@ -261,6 +268,10 @@ class CouplerCam(DiskKind[LinkageCamSpec, "LinkageCam"]):
 
     name, keys = "linkage_cam", LinkageCamSpec
     data_table = "parts.cams.data_tables"
+
+    def idle(self, keys: LinkageCamSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of another follower, or of another motion."""
+        return _idle(keys)
 
     def thing(self, keys: LinkageCamSpec, others: Others) -> LinkageCam:
         """The cam, checked to move its follower all the way."""

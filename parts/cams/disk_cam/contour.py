@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.schema import nearest_key
-from parts.keys.base import MOST_LENGTH, degrees, either, part_mm
+from parts.keys.base import MOST_LENGTH, check_idle, degrees, either, in_vain, part_mm
 
 if TYPE_CHECKING:
     from geometry.cams.motion.follower_motion import FollowerMotion
@@ -106,8 +106,7 @@ def contour_motion(keys: ContourKeys) -> FollowerMotion:
         raise either("phases", None, "contour")
     if keys.motion_table is not None:
         raise either("motion_table", None, "contour")
-    if keys.table_tolerance:
-        raise ParameterError("table_tolerance", keys.table_tolerance, "tolerance_without_table", Nearest(0.0))
+    check_idle(in_vain(keys, ("table_tolerance",), "tolerance_without_table"))
     if keys.oscillating is not None:
         raise ParameterError("contour", None, "contour_needs_slide")
     if keys.follower != "flat" and keys.follower_offset:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
@@ -21,7 +21,7 @@ from parts.base.schema import nearest_key, replaced
 from parts.base.texts import N_
 from parts.cams.disk_cam.contour import ContourTable, contour_motion
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
-from parts.keys.base import MOST_LENGTH, check_idle, part_mm, start
+from parts.keys.base import MOST_LENGTH, check_idle, in_vain, part_mm, start
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
@@ -38,7 +38,8 @@ from parts.keys.cam import (
     Phases,
     Swing,
     TableTolerance,
-    check_stroke,
+    idle_motion,
+    idle_stroke,
     motion_of,
     rough_law,
     steep,
@@ -125,6 +126,7 @@ EVEN_CAM: dict[str, object] = {
 class FacedKeys(Protocol):
     """Keys of a cam whose follower may have a plate."""
 
+    follower: Follower
     plate_diameter: float | None
 
 
@@ -133,7 +135,7 @@ def cam_of(keys: CamSpec) -> DiskCam:
     from geometry.cams.plane.disk import FollowerKind, translating_cam
 
     swing, base = keys.oscillating, keys.base_circle_radius
-    check_stroke(keys, swing is not None, tabled=keys.motion_table is not None)
+    check_idle(idle_stroke(keys, swing is not None, tabled=keys.motion_table is not None))
     kind = FollowerKind(keys.follower)
     motion = motion_of(keys, swing is not None) if keys.contour is None else contour_motion(keys)
     try:
@@ -374,12 +376,16 @@ def larger_bases(base: float, cam: DiskCam | None = None) -> list[float]:
     return [*(base * 2 * 1.5**k for k in range(12)), *(base * (1 + k / 16) for k in range(1, 16))]
 
 
-def check_face(keys: FacedKeys, cam: DiskCam, *, plain: bool) -> None:
-    """The contact stays on the plate of the follower, which ``plain`` followers have."""
+def idle_plate(keys: FacedKeys, *, plain: bool = True) -> Iterator[ParameterError]:
+    """The plate of a follower that has none; ``plain``: its follower may have one."""
+    if not plain or keys.follower not in ("flat", "mushroom"):
+        yield from in_vain(keys, ("plate_diameter",), "for_faces_only")
+
+
+def check_face(keys: FacedKeys, cam: DiskCam) -> None:
+    """The contact stays on the plate of the follower."""
     if keys.plate_diameter is None:
         return
-    if not plain:
-        raise ParameterError("plate_diameter", keys.plate_diameter, "for_faces_only", Nearest(None))
     least = cam.least_plate_diameter()
     if not keys.plate_diameter >= least:
         raise ParameterError(
@@ -545,16 +551,19 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
     data_table = "parts.cams.data_tables"
     sheet_shown = "cam", N_("diagrams and profile of the cam, DXF and SVG")
 
-    def idle(self, keys: CamSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
-        """Transmission angles of a flat face, which pushes along its normal, where they give no base circle."""
+    def idle(self, keys: CamSpec, others: Others) -> Iterator[ParameterError]:
+        """Angles of a flat face, which pushes along its normal, where they give no base circle; what others have."""
         if keys.follower == "flat" and keys.base_circle_radius is not None:
-            yield ("least_transmission_angle_deg", "least_return_transmission_angle_deg"), 'follower = "roller"'
+            names = "least_transmission_angle_deg", "least_return_transmission_angle_deg"
+            yield from in_vain(keys, names, other='follower = "roller"')
+        yield from idle_motion(keys, keys.oscillating is not None)
+        yield from idle_plate(keys, plain=keys.oscillating is None)
 
     def thing(self, keys: CamSpec, others: Others) -> DiskCam:
         """The cam, checked to move its follower all the way: an undercut one is told a large enough base circle."""
         from geometry.cams.plane.undercut import lost_to_undercut
 
-        check_idle(keys, self.idle(keys, others))
+        check_idle(self.idle(keys, others))
         cam, base, least = cam_of(keys), keys.base_circle_radius, 0.0
         if cam.is_flat and not cam.swings and base is not None:
             from geometry.cams.plane.synthesis import flat_base_radius
@@ -573,7 +582,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
             raise undercut(
                 cam, "base_circle_radius", base, lost, limit(least * (1 + _SPARE), base) if hollow else larger
             )
-        check_face(keys, cam, plain=keys.follower in ("flat", "mushroom") and keys.oscillating is None)
+        check_face(keys, cam)
         check_disk(keys, cam)
         return cam
 

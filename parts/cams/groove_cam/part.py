@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -39,6 +40,7 @@ from parts.keys.cam import (
     Phases,
     Swing,
     TableTolerance,
+    idle_motion,
     steep,
     turn,
 )
@@ -251,6 +253,10 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
     name, keys = "groove_cam", GrooveCamSpec
     drawing = "parts.cams.drawings"
     data_table = "parts.cams.data_tables"
+
+    def idle(self, keys: GrooveCamSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of another motion."""
+        return idle_motion(keys, keys.oscillating is not None)
 
     def thing(self, keys: GrooveCamSpec, others: Others) -> GrooveDisk:
         """The disk, checked to let its roller through."""

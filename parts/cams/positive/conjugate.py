@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,7 +22,7 @@ from parts.base.part_keys import MaterialKeys
 from parts.base.schema import nearest_key
 from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
-from parts.keys.base import degrees, mm, part_mm
+from parts.keys.base import check_idle, degrees, in_vain, mm, part_mm
 from parts.keys.holes import (
     BoreTable,
     HolesTable,
@@ -103,20 +104,25 @@ def _between_rollers(second: SecondCam) -> dict[str, float]:
     return {"roller_angle_deg": math.degrees(between), "lowest_angle_deg": math.degrees(lowest)}
 
 
+def _idle(keys: ConjugateCamSpec, swings: bool) -> Iterator[ParameterError]:
+    """What is of the other follower."""
+    if swings:
+        yield from in_vain(keys, ("roller_distance",), "arms_stand_by_angle")
+    else:
+        yield from in_vain(keys, ("roller_angle_deg",), "rollers_stand_by_distance")
+        yield from in_vain(keys, ("arm_length",), "stem_has_no_arm")
+
+
 def _pair(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam) -> Conjugate:
     """The second cam; refusals in the keys of this part."""
     from geometry.cams.plane.positive import conjugate_cam
 
     swings = owner.oscillating is not None
-    key, other = ("roller_angle_deg", "roller_distance") if swings else ("roller_distance", "roller_angle_deg")
-    if (wrong := getattr(keys, other)) is not None:
-        code = "arms_stand_by_angle" if swings else "rollers_stand_by_distance"
-        raise ParameterError(other, wrong, code, Nearest(None))
+    check_idle(_idle(keys, swings))
+    key = "roller_angle_deg" if swings else "roller_distance"
     given = getattr(keys, key)
     if given is not None and keys.base_circle_radius is not None:
         raise ParameterError("base_circle_radius", keys.base_circle_radius, "follows_from", Nearest(None), key=key)
-    if keys.arm_length is not None and not swings:
-        raise ParameterError("arm_length", keys.arm_length, "stem_has_no_arm", Nearest(None))
     radius = owner.follower_radius if keys.follower_radius is None else keys.follower_radius
     if given is None:
         base = first.base_radius if keys.base_circle_radius is None else keys.base_circle_radius
@@ -230,6 +236,10 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
 
     name, keys, made_from = "conjugate_cam", ConjugateCamSpec, EVEN_CAM
     data_table = "parts.cams.data_tables"
+
+    def idle(self, keys: ConjugateCamSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of the other follower."""
+        return _idle(keys, owner_of(keys.of, others, CamSpec).oscillating is not None)
 
     def thing(self, keys: ConjugateCamSpec, others: Others) -> SecondCam:
         """The second cam, checked to move its roller all the way."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
@@ -16,7 +16,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import CAM, EVEN_CAM, CamSpec
-from parts.keys.base import check_idle, mm, part_mm
+from parts.keys.base import check_idle, in_vain, mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -180,14 +180,14 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
     name, keys, made_from = "yoke_frame", YokeFrameSpec, EVEN_CAM
     drawing = "parts.cams.drawings"
 
-    def idle(self, keys: YokeFrameSpec, others: Others) -> Iterator[tuple[Sequence[str], str]]:
+    def idle(self, keys: YokeFrameSpec, others: Others) -> Iterator[ParameterError]:
         """Sizes of a stem that is not there, or of what a frame of the other follower has."""
         if owner_of(keys.of, others, CamSpec).follower == "flat":
-            yield ("pin_diameter", "shaft_diameter"), 'follower = "roller"'
+            yield from in_vain(keys, ("pin_diameter", "shaft_diameter"), other='follower = "roller"')
         else:
-            yield ("side_clearance",), 'follower = "flat"'
+            yield from in_vain(keys, ("side_clearance",), other='follower = "flat"')
         if not (keys.stem_above or keys.stem_below):
-            yield ("stem_width",), "stem_above"
+            yield from in_vain(keys, ("stem_width",), other="stem_above")
 
     def thing(self, keys: YokeFrameSpec, others: Others) -> YokeFrame:
         """The frame of another part's cam, which must be of constant breadth; its sizes fit."""
@@ -196,7 +196,7 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
 
         owner = owner_of(keys.of, others, CamSpec)
         cam = CAM.thing(owner, others)
-        check_idle(keys, self.idle(keys, others))
+        check_idle(self.idle(keys, others))
         try:
             breadth = yoke_breadth(cam)
         except ParameterError as refusal:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -17,14 +18,14 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import nearest_key, replaced
-from parts.keys.base import MOST_LENGTH, MadeKeys, part_mm, start
+from parts.keys.base import MOST_LENGTH, MadeKeys, check_idle, part_mm, start
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
     Move,
     Swing,
     check_dwell,
-    check_stroke,
+    idle_stroke,
     rough_law,
     steep,
     stroke_key,
@@ -146,7 +147,7 @@ def _wedge_of(keys: WedgeCamSpec) -> WedgeCam:
     if keys.follower == "flat":
         raise ParameterError("follower", keys.follower, "flat_on_wedge")
     swings, radius = keys.oscillating is not None, keys.follower_radius
-    check_stroke(keys, swings, tabled=False)
+    check_idle(idle_stroke(keys, swings, tabled=False))
     key, unit = stroke_key(swings)
     lift = getattr(keys, key)
     if not lift > 0:
@@ -382,6 +383,10 @@ class Wedge(Kind[WedgeCamSpec, "WedgeCam"]):
     name, keys = "wedge_cam", WedgeCamSpec
     drawing = "parts.cams.drawings"
     data_table = "parts.cams.data_tables"
+
+    def idle(self, keys: WedgeCamSpec, others: Others) -> Iterator[ParameterError]:
+        """The travel of another follower."""
+        return idle_stroke(keys, keys.oscillating is not None, tabled=False)
 
     def thing(self, keys: WedgeCamSpec, others: Others) -> WedgeCam:
         """The cam, checked to move its follower all the way, and the plate about it."""

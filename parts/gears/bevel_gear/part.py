@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta
@@ -15,9 +16,8 @@ from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
-from parts.base.refusal import REMOVED
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
+from parts.keys.base import BoreDiameter, check_idle, degrees, either, in_modules, in_vain, mm
 from parts.keys.helix import hand_finding, told_in_keys
 from parts.keys.holes import BoreTable, HolesTable, check_holes, check_shape, holes_of, wide_bore
 
@@ -125,11 +125,18 @@ def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
     return _lined(keys, replace(gear, face_width=width))
 
 
+def _idle(keys: BevelGearSpec) -> Iterator[ParameterError]:
+    """What is of the tooth line of other teeth."""
+    if keys.spiral_angle_deg is None or keys.tooth_line != "arc":
+        yield from in_vain(keys, ("cutter_radius",), "bevel_cutter_without_arc")
+    if keys.spiral_angle_deg is None:
+        yield from in_vain(keys, ("tooth_line",), other="spiral_angle_deg")
+
+
 def _lined(keys: BevelGearSpec, gear: BevelGear) -> BevelGear:
     """The gear with the tooth line of its keys, its section transverse to it."""
-    arc = keys.spiral_angle_deg is not None and keys.tooth_line == "arc"
-    if keys.cutter_radius is not None and not arc:
-        raise ParameterError("cutter_radius", keys.cutter_radius, "bevel_cutter_without_arc", REMOVED)
+    check_idle(_idle(keys))
+    arc = keys.tooth_line == "arc"
     if keys.spiral_angle_deg is None:
         return gear
     spiral = math.radians(keys.spiral_angle_deg)
@@ -196,6 +203,10 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
     name, keys, has_outline, unmoved = "bevel_gear", BevelGearSpec, False, "bevel_not_moved"
     page = "parts.gears.bevel_gear.page"
     drawing = data_table = "parts.gears.bevel_gear.drawing"
+
+    def idle(self, keys: BevelGearSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of the tooth line of other teeth."""
+        return _idle(keys)
 
     def thing(self, keys: BevelGearSpec, others: Others) -> BevelGear:
         """The gear, checked to exist."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -17,7 +18,7 @@ from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
-from parts.keys.base import either, in_modules, mm, start
+from parts.keys.base import check_idle, either, in_modules, in_vain, mm, start
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.holes import hub_holes, spoked, with_remedy
 from parts.keys.wheel import WheelKeys, WheelKind, shape_of
@@ -98,6 +99,10 @@ class NoncircularGearKind(WheelKind[NoncircularGearSpec, "NoncircularGear"]):
     name, keys = "noncircular_gear", NoncircularGearSpec
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
+
+    def idle(self, keys: NoncircularGearSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of another centrode."""
+        return _idle(keys)
 
     def thing(self, keys: NoncircularGearSpec, others: Others) -> NoncircularGear:
         """The gear, checked to be cut whole, and to leave its holes a rim."""
@@ -205,19 +210,22 @@ def _builds(keys: NoncircularGearSpec) -> bool:
     return True
 
 
+def _idle(keys: NoncircularGearSpec) -> Iterator[ParameterError]:
+    """What is of another centrode."""
+    unused = ("axis_ratio", "eccentricity") if keys.centrode == "ratio" else ("ratio_cosines", "ratio_sines")
+    given = [key for key in unused if getattr(keys, key) != []]
+    yield from in_vain(keys, given, "not_of_this_centrode", centrode=keys.centrode)
+
+
 def _check_keys(keys: NoncircularGearSpec) -> None:
     """Keys that exclude each other, or need each other."""
     if keys.bore is not None and keys.bore_diameter > 0:
         raise either("bore_diameter", keys.bore_diameter, "bore", 0.0)
     _check_one("module", keys.module, "centre_distance", keys.centre_distance)
-    ratio = keys.centrode == "ratio"
-    unused = ("axis_ratio", "eccentricity") if ratio else ("ratio_cosines", "ratio_sines")
-    for key in unused:
-        if (value := getattr(keys, key)) is not None and value != []:
-            raise ParameterError(key, value, "not_of_this_centrode", Nearest(None), centrode=keys.centrode)
+    check_idle(_idle(keys))
     if keys.centrode == "focal_ellipse" and keys.lobes not in (None, 1):
         raise ParameterError("lobes", keys.lobes, "one_lobe_about_focus", Nearest(1))
-    if not ratio:
+    if keys.centrode != "ratio":
         _check_one("axis_ratio", keys.axis_ratio, "eccentricity", keys.eccentricity)
 
 

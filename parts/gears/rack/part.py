@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct
@@ -12,7 +13,15 @@ from parts.base.kind import Kind, Others, Report
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import degrees, mm
 from parts.keys.cutter import RackName
-from parts.keys.helix import ToothedKeys, checked_teeth, hand_finding, helix_of, section_finding, told_in_keys
+from parts.keys.helix import (
+    ToothedKeys,
+    checked_teeth,
+    hand_finding,
+    helix_of,
+    idle_helix,
+    section_finding,
+    told_in_keys,
+)
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
@@ -80,6 +89,10 @@ class RackKind(Kind[RackSpec, "Rack"]):
     name, keys = "rack", RackSpec
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
+
+    def idle(self, keys: RackSpec, others: Others) -> Iterator[ParameterError]:
+        """Two helices without an angle."""
+        return idle_helix(keys)
 
     def thing(self, keys: RackSpec, others: Others) -> Rack:
         """The transverse section of the rack."""

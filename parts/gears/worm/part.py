@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -15,7 +16,7 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report, diameters
 from parts.base.part_keys import MaterialKeys
 from parts.keys.accuracy import AccuracyKey
-from parts.keys.base import BoreDiameter, degrees, mm
+from parts.keys.base import BoreDiameter, check_idle, degrees, in_vain, mm
 from parts.keys.holes import BoreTable, check_shape, holes_of, wide_bore
 from parts.keys.worm import (
     Addendum,
@@ -31,6 +32,7 @@ from parts.keys.worm import (
     WormHand,
     WormQuotient,
     cured,
+    idle_of_worm,
     in_degrees,
     quotient_of,
     ways_out,
@@ -116,12 +118,12 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     accuracy: AccuracyKey = None
 
 
-def _check_ends(keys: WormSpec) -> None:
-    """No angle is given for other ends than the thread has."""
+def _idle(keys: WormSpec) -> Iterator[ParameterError]:
+    """The angle of other ends than the thread has."""
+    yield from idle_of_worm(keys)
     for key, ends in (("end_angle_deg", "cut"), ("run_out_deg", "run_out")):
-        given: float | None = getattr(keys, key)
-        if given is not None and keys.thread_ends != ends:
-            raise ParameterError(key, given, "only_of_thread_ends", Nearest(None), ends=ends)
+        if keys.thread_ends != ends:
+            yield from in_vain(keys, (key,), "only_of_thread_ends", ends=ends)
 
 
 def told_worm(keys: WormSpec) -> WormSpec:
@@ -140,7 +142,7 @@ def _made(keys: WormSpec) -> WormBody:
     from geometry.gears.worms.body import Step, WormBody
     from geometry.gears.worms.thread import thread_of
 
-    _check_ends(keys)
+    check_idle(_idle(keys))
     thread = thread_of(worm_of(keys, keys.fillet_coefficient, keys.axial_thinning), keys.tip_rounding)
     root = thread.worm.root_radius
     holes = holes_of(keys)
@@ -196,6 +198,10 @@ class WormKind(Kind[WormSpec, "WormBody"]):
     name, keys, unmoved = "worm", WormSpec, "worm_not_moved"
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
+
+    def idle(self, keys: WormSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of another form, or of other ends."""
+        return _idle(keys)
 
     def gathered(self, keys: WormSpec, folder: Path) -> WormSpec:
         """The keys with the usual angle of their ends, and quotient where neither it nor a lead angle is given."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -34,6 +35,7 @@ from parts.keys.worm import (
     WormHand,
     cured,
     hob_quotient,
+    idle_of_worm,
     shift_of,
     ways_out,
     worm_of,
@@ -249,6 +251,10 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
     name, keys, has_outline, unmoved = "worm_wheel", WormWheelSpec, False, "worm_wheel_not_moved"
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
+
+    def idle(self, keys: WormWheelSpec, others: Others) -> Iterator[ParameterError]:
+        """What is of a worm of another form."""
+        return idle_of_worm(keys)
 
     def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:
         """The wheel, checked to exist."""

@@ -6,6 +6,7 @@ import math
 from typing import Annotated
 
 from msgspec import Meta, field
+from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
@@ -103,11 +104,13 @@ def _mate_form(keys: ChainKeys) -> IsoForm | SeatedForm:
     """That of the driven sprocket; what only one standard has goes with that."""
     alike = keys.mate_tooth_form in (None, keys.tooth_form)
     form, displaced = (keys.form, keys.displaced) if alike else (0.0, False)
-    return tooth_gap(
-        keys.mate_tooth_form or keys.tooth_form,
-        form if keys.mate_form is None else keys.mate_form,
-        displaced if keys.mate_displaced is None else keys.mate_displaced,
+    mate = changed(
+        keys,
+        tooth_form=keys.mate_tooth_form or keys.tooth_form,
+        form=form if keys.mate_form is None else keys.mate_form,
+        displaced=displaced if keys.mate_displaced is None else keys.mate_displaced,
     )
+    return tooth_gap(mate)
 
 
 def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:

@@ -11,7 +11,7 @@ import pytest
 from exporters.command.cli import main
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
-from parts.scene.load import load_scene, resolved, scene_from_toml
+from parts.scene.load import load_scene, make_parts, resolved, scene_from_dict, scene_from_toml
 from parts.scene.schema import scene_schema
 
 SHORT = """
@@ -209,3 +209,55 @@ def test_what_would_do_nothing_is_passed_over(tmp_path: Path) -> None:
     with pytest.raises(SceneError) as refused:
         plan_build(load_scene(str(file)), str(file), [], [])
     assert (refused.value.key, refused.value.code) == ("parts.stemless.stem_width", "needs_other")
+
+
+# parts in a form beside which some key does nothing, and that key: refused to each, of ``[defaults]`` passed over
+PHASES = [{"move": move, "angle_deg": 180.0, "law": "sine"} for move in ("rise", "return")]
+DISK = {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 10.0}
+BEVEL = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_number_of_teeth": 40}
+PITCHED = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 24}
+FORMS: list[tuple[dict[str, object], str, object]] = [
+    ({"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}, "double_helical", True),
+    ({"kind": "rack", "module": 2.0, "number_of_teeth": 5}, "double_helical", True),
+    ({"kind": "worm", "module": 2.0, "thread_length": 40.0}, "grinding_wheel_diameter", 200.0),
+    ({"kind": "worm", "module": 2.0, "thread_length": 40.0}, "run_out_deg", 60.0),
+    ({"kind": "worm_wheel", "module": 2.0, "number_of_teeth": 40}, "grinding_wheel_diameter", 200.0),
+    (BEVEL, "cutter_radius", 60.0),
+    (BEVEL, "tooth_line", "straight"),
+    ({**DISK, "phases": PHASES}, "plate_diameter", 60.0),
+    ({**DISK, "phases": PHASES}, "table_tolerance", 0.1),
+    (PITCHED, "outer_diameter", 150.0),
+    ({**PITCHED, "internal": True, "outer_diameter": 150.0}, "bore_diameter", 6.0),
+    ({"kind": "sprocket", "number_of_teeth": 17, "chain": "08B-1"}, "displaced", True),
+    ({"kind": "follower", "end": "roller"}, "plate_diameter", 60.0),
+    ({"kind": "follower", "end": "roller"}, "tip_angle_deg", 50.0),
+]
+
+
+@pytest.mark.parametrize(("form", "key", "value"), FORMS)
+def test_keys_of_other_forms_are_passed_over(form: dict[str, object], key: str, value: object) -> None:
+    """A default for one worm of ZK1 was refused because of another one of ZI."""
+    scene = scene_from_dict({"defaults": {key: value}, "parts": {"a": dict(form)}}, "s", "s")
+    plain = scene_from_dict({"parts": {"a": dict(form)}}, "s", "s")
+    assert scene.parts == plain.parts
+    make_parts(scene, "s")
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": {"a": {**form, key: value}}}, "s", "s"), "s")
+    assert refused.value.key == f"parts.a.{key}"
+
+
+def test_a_motion_of_its_own_needs_no_default_of_another_form() -> None:
+    """Phases for all cams were refused where one has a table."""
+    table = {**DISK, "motion_table": [[0.0, 0.0], [90.0, 5.0], [180.0, 10.0], [270.0, 5.0]]}
+    del table["lift"]
+    scene = {"defaults": {"phases": PHASES, "lift": 9.0}, "parts": {"a": table, "b": {**DISK}, "c": {**DISK}}}
+    del scene["parts"]["b"]["lift"]
+    made, _ = make_parts(scene_from_dict(scene, "s", "s"), "s")
+    assert [made[name].thing.motion.lift for name in "abc"] == pytest.approx([10.0, 9.0, 10.0])
+
+
+def test_a_position_is_not_one_for_all() -> None:
+    """It was refused at the second part, as that of the first."""
+    with pytest.raises(SceneError) as refused:
+        scene_from_dict({"defaults": {"position": 3}, "parts": {"a": BEVEL, "b": BEVEL}}, "s", "s")
+    assert (refused.value.key, refused.value.code) == ("defaults.position", "not_one_for_all")
