@@ -22,7 +22,7 @@ from parts.scene.formats import FileKind, Form
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import ReadDrawing
     from exporters.formats.read_step import ReadSolid
-    from exporters.formats.readback import ReadMesh
+    from exporters.formats.readback import ReadMesh, ReadOutlines
     from geometry.plane.profile import Profile, Region
     from geometry.solids.body import Body
     from geometry.solids.measured import Faced
@@ -61,7 +61,15 @@ def verify_part(
             also(file)
         except ReadError as refusal:
             return verdict.also([str(refusal)])
+    if kind.form is Form.ARCS and len(flat(offset).region.apart) > len(part.section(offset).region.apart):
+        found = _without_tag(cast("ReadOutlines", found))
     return probed(found, part, offset, declared, verdict)
+
+
+def _without_tag(found: ReadOutlines) -> ReadOutlines:
+    """The outlines of a part alone: the tag with its name stands to the right of all of them."""
+    tag = max(found.loops, key=lambda loop: float(loop.points.real.min()))
+    return replace(found, loops=tuple(loop for loop in found.loops if loop is not tag))
 
 
 @of_readable

@@ -101,6 +101,16 @@ def test_a_name_without_room_stands_on_a_tag_and_is_told(made: Path) -> None:
     assert all(("label_on_tag" in codes) == path.startswith("small.") for path, codes in told.items())
 
 
+def test_what_a_file_must_do_is_asked_of_the_part_and_not_of_a_tag_wider_than_it(tmp_path: Path) -> None:
+    wheel = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 16}
+    parts = {"w": wheel, "p": {"kind": "pawl", "of": "w", "label": "A NAME MUCH WIDER THAN ITS PART"}}
+    exports = [{"format": "dxf", "parts": ["p"]}, {"format": "svg", "parts": ["p"]}]
+    assert main(["build", str(_scene(tmp_path, parts, exports)), "--out", str(tmp_path)]) == 0
+    files = json.loads((tmp_path / "s" / "report.json").read_text(encoding="utf-8"))["files"]
+    assert all("label_on_tag" in {one["code"] for one in file["findings"]} for file in files)
+    assert all(abs(file["measured"]["seat_gap"]) < 1e-6 for file in files)
+
+
 def test_a_board_says_which_part_has_no_room_for_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = tmp_path / "scene.toml"
     scene.write_text(
