@@ -409,13 +409,14 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
     return spec
 
 
-# keys of exports: what they are where nobody asks, and the only format that takes them, or why CAD does not
+# keys of exports: what they are where nobody asks, and the only format that takes them, or why CAD or a board does not
 _OF_ONE_FORMAT = (
     ("dxf_version", "R2000", "dxf"), ("author", "", "step"), ("organisation", "", "step"), ("shared", True, "step"),
 )  # fmt: skip
 _NOT_OF_CAD = (
     ("kerf", 0.0, "shows_the_part"), ("curves", "arcs", "has_true_splines"), ("dxf_version", "R2000", "drawn_in_r2010"),
 )  # fmt: skip
+_NOT_OF_BOARDS = (("kerf", "key_of_board"), ("offset", "not_of_boards"), ("assembly", "not_of_boards"))
 
 
 # mm: an outline that moves less stays as files tell it
@@ -424,10 +425,6 @@ _LEAST_MOVE = 1e-6
 
 def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, place: str) -> ExportSpec:
     spec = converted(table, ExportSpec, source, place)
-
-    def refuse(key: str, code: str, **numbers: Any) -> None:
-        raise SceneError(source, f"{place}.{key}", getattr(spec, key), code, REMOVED, **numbers)
-
     check_parts(spec.parts or (), parts, source, f"{place}.parts")
     purposes = tolerances_of(spec.format)
     if spec.purpose is None:
@@ -438,33 +435,39 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
         told = {"format": spec.format, "known": list(purposes), "formats": others}
         raise SceneError(source, f"{place}.purpose", spec.purpose, "wrong_purpose", None, **told)
     if spec.kerf and spec.offset:
-        refuse("kerf", "kerf_and_offset")
+        raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_and_offset", REMOVED)
     for key in ("kerf", "offset"):
         if 0 < abs(moved := getattr(spec, key)) < _LEAST_MOVE:
             raise SceneError(
                 source, f"{place}.{key}", moved, "hardly_moves", Nearest(0.0), unit="mm", least=_LEAST_MOVE
             )
-    for key, usual, only in _OF_ONE_FORMAT:
-        if spec.format != only and getattr(spec, key) != usual:
-            refuse(key, "only_for_format", formats=f'"{only}"', format=spec.format)
-    if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
-        refuse("assembly", "only_for_format", formats=[f'"{f}"' for f in ASSEMBLY_FORMATS], format=spec.format)
-    if spec.is_laid:
-        for key, code in (("kerf", "key_of_board"), ("offset", "not_of_boards"), ("assembly", "not_of_boards")):
-            if getattr(spec, key) and not (key == "offset" and spec.format == "3mf"):
-                refuse(key, code)
+    for key, code, numbers in _of_others(spec):
+        raise SceneError(source, f"{place}.{key}", getattr(spec, key), code, REMOVED, **numbers)
     check_sheet_keys(spec, source, place)
-    kind = spec.kind
-    if spec.kerf and kind.form is Form.TRIANGLES:
-        refuse("kerf", "kerf_of_a_print", offset=spec.kerf / 2)
-    if spec.pitch_curve and kind.form is not Form.SPLINES:
-        refuse("pitch_curve", "only_for_purpose", purpose="drawing")
-    for key, plain, code in _NOT_OF_CAD if kind.is_cad else ():
-        if getattr(spec, key) != plain:
-            refuse(key, code)
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec
+
+
+def _of_others(spec: ExportSpec) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Keys that are set, but only exports of other formats or purposes take: which, why, and the numbers of that."""
+    for key, usual, only in _OF_ONE_FORMAT:
+        if spec.format != only and getattr(spec, key) != usual:
+            yield key, "only_for_format", {"formats": f'"{only}"', "format": spec.format}
+    if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
+        yield "assembly", "only_for_format", {"formats": [f'"{f}"' for f in ASSEMBLY_FORMATS], "format": spec.format}
+    for key, code in _NOT_OF_BOARDS if spec.is_laid else ():
+        # a plate of prints is moved like each of them
+        if getattr(spec, key) and not (key == "offset" and spec.format == "3mf"):
+            yield key, code, {}
+    kind = spec.kind
+    if spec.kerf and kind.form is Form.TRIANGLES:
+        yield "kerf", "kerf_of_a_print", {"offset": spec.kerf / 2}
+    if spec.pitch_curve and kind.form is not Form.SPLINES:
+        yield "pitch_curve", "only_for_purpose", {"purpose": "drawing"}
+    for key, plain, code in _NOT_OF_CAD if kind.is_cad else ():
+        if getattr(spec, key) != plain:
+            yield key, code, {}
 
 
 def _renumber(origins: dict[str, str], numbers: list[int]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -111,25 +112,12 @@ def draw_profile(
 
     for way in (1, 1j):
         canvas.line("CENTRE", paper.point(-1.08 * reach.base * way), paper.point(1.08 * reach.base * way))
-    if base_given or not asked.by_hand:
-        circle("CIRCLE_BASE", 0j, reach.base)
-    if not asked.by_hand:
-        if cam.radius:
-            circle("CIRCLE_PRIME", 0j, reach.prime)
-        circle("CIRCLE_FAR", 0j, reach.far)
-    mount = cam.mount
-    if isinstance(mount, Translating) and mount.offset and not cam.is_flat:
-        circle("CIRCLE_OFFSET", 0j, abs(mount.offset))
-    if isinstance(mount, Oscillating):
-        circle("CIRCLE_PIVOT", 0j, mount.centre_distance)
-    if (linked := linkage_cam_of(picture)) is not None:
-        # none about a pivot that stands on the axis
-        for pivot in filter(None, pivots(linked)):
-            circle("CIRCLE_PIVOT", 0j, abs(pivot))
+    for layer, radius in _circles_about(picture, reach, by_hand=asked.by_hand, base_given=base_given):
+        circle(layer, 0j, radius)
     if asked.by_hand:
         _turning(canvas, paper, reach)
         return drawn, circles, {}
-    if linked is not None:
+    if (linked := linkage_cam_of(picture)) is not None:
         draw_links(canvas, drawn, picture, linked, paper, reach.rays)
     _marks(canvas, picture, paper)
     for position in picture.positions:
@@ -153,6 +141,26 @@ def draw_profile(
         draw(canvas, layer, fitted(canvas, exact, paper.scale, asked.tolerance), paper)
     _turning(canvas, paper, reach)
     return drawn, circles, curves
+
+
+def _circles_about(
+    picture: CamPicture, reach: Reach, *, by_hand: bool, base_given: bool
+) -> Iterator[tuple[str, float]]:
+    """The circles about the cam's axis, each with its layer and radius in model mm."""
+    cam, mount = picture.cam, picture.cam.mount
+    if base_given or not by_hand:
+        yield "CIRCLE_BASE", reach.base
+    if not by_hand:
+        if cam.radius:
+            yield "CIRCLE_PRIME", reach.prime
+        yield "CIRCLE_FAR", reach.far
+    if isinstance(mount, Translating) and mount.offset and not cam.is_flat:
+        yield "CIRCLE_OFFSET", abs(mount.offset)
+    if isinstance(mount, Oscillating):
+        yield "CIRCLE_PIVOT", mount.centre_distance
+    if (linked := linkage_cam_of(picture)) is not None:
+        # none about a pivot that stands on the axis
+        yield from (("CIRCLE_PIVOT", abs(pivot)) for pivot in pivots(linked) if pivot)
 
 
 def _turned(angle: float, point: complex) -> complex:
