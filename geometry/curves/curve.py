@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,6 +85,15 @@ class Curve:
     def knots(self) -> Real:
         """Rising parameters within the domain at which one formula gives way to the next: the curve is C2 there."""
         return _NO_KNOTS
+
+    @property
+    def alike(self) -> object:
+        """What curves have in common that one formula gives, asked together; None where it stands alone."""
+        return None
+
+    def together(self, curves: Sequence[Curve], which: Indices) -> Curve:
+        """A curve that asks, for each parameter, one of ``curves`` alike: no domain is its."""
+        raise NotImplementedError
 
     def joined(self, after: Curve) -> Curve | None:
         """This curve and one that goes on from it, as one; None where they are not of one formula or spline."""
@@ -171,6 +180,15 @@ class Image(Curve):
         """Where directions of the base come to."""
         return self._points(vectors)
 
+    @property
+    def alike(self) -> object:
+        """What the bases have in common, carried the same way."""
+        own = self.base.alike
+        return own and (type(self), own)
+
+    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
+        return replace(self, base=self.base.together([cast("Self", c).base for c in curves], which))
+
     def _at(self, t: ArrayLike) -> ArrayLike:
         return t if self.way > 0 else -np.asarray(t, dtype=float)
 
@@ -254,6 +272,11 @@ class Carried(Image, Record):
     base: Curve
     placement: Placement2
     way = 1
+
+    @property
+    def alike(self) -> object:
+        own = self.base.alike
+        return own and (Carried, own, self.placement)
 
     def _points(self, points: Complex) -> Complex:
         return self.placement.apply(points)

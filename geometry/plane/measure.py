@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import reduce
-from typing import Protocol
+from itertools import pairwise
+from typing import NamedTuple, Protocol, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,6 +32,8 @@ _AT_ONCE, _BULGE = 1_000_000, 1.2
 _FEW = 4
 # near a cusp the steps only halve the error, so the thorough pass takes many
 _QUICK_STEPS, _THOROUGH_STEPS = 4, 24
+# part of a sample's distance of which the last step is the last: the next one is its square
+_STILL = 1e-12
 # ends so near, mm, shut a curve
 _SHUT = 1e-6
 NDArrayInt = NDArray[np.int64]
@@ -102,9 +105,15 @@ def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0
     A quick pass projects each point on the curves beside its nearest coarse sample; it can only be too large,
     so what it finds above ``trusted`` mm is measured again on every curve with fine samples.
     """
-    turns = (0,) if profile.count == 1 else (-1, 0, 1)
-    near = np.exp([-1j * profile.pitch_angle * k for k in turns])
-    return _distance(_folded(points, profile), [s.curve for s in profile.period], near, trusted)
+    return distance_to_own([points], [profile], trusted=trusted)[0]
+
+
+def distance_to_own(places: Sequence[Complex], profiles: Sequence[Profile], *, trusted: float = 0.0) -> list[Real]:
+    """The same of many profiles, each of places of its own; what one formula gives in all of them is asked together."""
+    turns = [(0,) if p.count == 1 else (-1, 0, 1) for p in profiles]
+    near = [np.exp([-1j * p.pitch_angle * k for k in some]) for p, some in zip(profiles, turns, strict=True)]
+    chains = [[s.curve for s in p.period] for p in profiles]
+    return _distances([_folded(x, p) for x, p in zip(places, profiles, strict=True)], chains, near, trusted)
 
 
 def distance_to_nearest(points: Complex, profiles: Sequence[Profile], trusted: float) -> Real:
@@ -144,32 +153,59 @@ def profile_disc(profile: Profile) -> tuple[complex, float]:
 
 def _disc(samples: Complex) -> tuple[complex, float]:
     """A disc that holds a chain by its samples, with room for what it bulges between them."""
-    middle = complex(samples[0] + samples[len(samples) // 2]) / 2
-    return middle, float(np.abs(samples - middle).max() + np.abs(np.diff(samples)).max())
+    middles, reaches = _discs(samples[None])
+    return complex(middles[0]), float(reaches[0])
+
+
+def _discs(samples: Complex) -> tuple[Complex, Real]:
+    """The same of many chains (n, samples)."""
+    middles = (samples[:, 0] + samples[:, samples.shape[1] // 2]) / 2
+    return middles, np.abs(samples - middles[:, None]).max(axis=1) + np.abs(np.diff(samples)).max(axis=1)
 
 
 def distance_to_chain(points: Complex, curves: Sequence[Curve], *, trusted: float = 0.0) -> Real:
     """The same of curves one behind the other, mm: a part of a profile whose other parts are farther away."""
-    return _distance(points, curves, np.ones(1, dtype=complex), trusted)
+    return _distances([points], [curves], [np.ones(1, dtype=complex)], trusted)[0]
 
 
-def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted: float) -> Real:
+def _distances(
+    places: Sequence[Complex], chains: Sequence[Sequence[Curve]], turns: Sequence[Complex], trusted: float
+) -> list[Real]:
     """Quick, then thorough where it matters: there the points are turned to the periods beside theirs too."""
-    if len(turns) == 1 and len(curves) <= _FEW and all(isinstance(c, Arc | Line) for c in curves):
-        return distance_to_curves(points, curves)
-    result = _quick_distance(points, curves)
+    plain = [
+        len(near) == 1 and len(chain) <= _FEW and all(isinstance(c, Arc | Line) for c in chain)
+        for chain, near in zip(chains, turns, strict=True)
+    ]
+    found = [
+        distance_to_curves(x, c) if known else np.zeros(0) for x, c, known in zip(places, chains, plain, strict=True)
+    ]
+    rest = [k for k, known in enumerate(plain) if not known and places[k].size]
+    if not rest:
+        return found
+    points, own = _joined([places[k] for k in rest])
+    asked = [chains[k] for k in rest]
+    result = _quick_distance(points, own, asked)
     doubtful = np.flatnonzero(result > trusted)
     if doubtful.size:
-        result[doubtful] = _thorough_distance(points[doubtful], curves, turns, result[doubtful])
-    return result
+        near = [turns[k] for k in rest]
+        result[doubtful] = _thorough_distance(points[doubtful], own[doubtful], asked, near, result[doubtful])
+    for k, mine in zip(rest, np.split(result, np.cumsum([places[k].size for k in rest])[:-1]), strict=True):
+        found[k] = mine
+    return found
+
+
+def _joined(places: Sequence[Complex]) -> tuple[Complex, NDArrayInt]:
+    """All of them one behind the other, and the number of the part that each is of."""
+    return np.concatenate(places), np.repeat(np.arange(len(places)), [x.size for x in places])
 
 
 def distance_to_curve(points: Complex, curve: Travelled) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
     if isinstance(curve, Arc | Line):
         return distance_to_plain(points, curve)
-    t = np.linspace(*curve.domain, _FINE_SAMPLES)
-    return _projected(points, curve, t, _nearest_index(points, curve.point(t)), newton=True)
+    alone = _evenly([curve], _FINE_SAMPLES)
+    start = _nearest_index(points, alone.points[0])
+    return _projected(points, alone, np.zeros_like(start), start, newton=True)
 
 
 def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
@@ -177,57 +213,125 @@ def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
     return np.min([distance_to_curve(points, curve) for curve in curves], axis=0)
 
 
-def _quick_distance(points: Complex, curves: Sequence[Curve]) -> Real:
-    parameters = [np.linspace(*c.domain, _COARSE_SAMPLES) for c in curves]
-    samples = np.concatenate([c.point(t) for c, t in zip(curves, parameters, strict=True)])
-    nearest = _nearest_index(points, samples)
-    best = np.full(points.shape, np.inf)
-    order = np.argsort(nearest, kind="stable")
-    ranks = nearest[order]
-    for index, curve in enumerate(curves):
+class _Alike(NamedTuple):
+    """Curves that one formula gives, or one alone, with the parameters and places (curves, n) of their samples."""
+
+    curves: Sequence[Travelled]
+    parameters: Real
+    points: Complex
+
+    def of(self, which: NDArrayInt) -> Travelled:
+        """The curve that each parameter is asked of."""
+        if len(self.curves) == 1:
+            return self.curves[0]
+        first, *_ = alike = cast("Sequence[Curve]", self.curves)
+        return first.together(alike, which)
+
+    def every(self, ask: Callable[[Travelled, Real], Complex]) -> Complex:
+        """What the curves say at their samples (curves, n)."""
+        size = self.parameters.shape
+        return ask(self.of(np.repeat(np.arange(size[0]), size[1])), self.parameters.ravel()).reshape(size)
+
+
+def _sampled(curves: Sequence[Travelled], parameters: Real) -> _Alike:
+    group = _Alike(curves, parameters, np.empty(0, dtype=complex))
+    return group._replace(points=group.every(lambda curve, t: np.asarray(curve.point(t))))
+
+
+def _evenly(curves: Sequence[Travelled], count: int) -> _Alike:
+    low, high = np.array([c.domain for c in curves]).T
+    return _sampled(curves, np.linspace(low, high, count, axis=1))
+
+
+def _groups(curves: Sequence[Curve]) -> list[NDArrayInt]:
+    """Numbers of the curves, of which those that one formula gives are together."""
+    found: dict[object, list[int]] = {}
+    for number, curve in enumerate(curves):
+        found.setdefault(number if curve.alike is None else curve.alike, []).append(number)
+    return [np.array(numbers) for numbers in found.values()]
+
+
+def _quick_distance(points: Complex, own: NDArrayInt, chains: Sequence[Sequence[Curve]]) -> Real:
+    """Distances of points from the curves of their own chains beside the nearest coarse samples."""
+    curves = [c for chain in chains for c in chain]
+    groups = [(k, _evenly([curves[i] for i in k], _COARSE_SAMPLES)) for k in _groups(curves)]
+    samples = np.empty((len(curves), _COARSE_SAMPLES), dtype=complex)
+    for numbers, group in groups:
+        samples[numbers] = group.points
+    last, edges = _COARSE_SAMPLES - 1, np.cumsum([0, *map(len, chains)])
+    asked: list[tuple[NDArrayInt, NDArrayInt, NDArrayInt]] = []
+    for chain, (low, high) in enumerate(pairwise(edges.tolist())):
+        mine = np.flatnonzero(own == chain)
+        which, start = np.divmod(_nearest_index(points[mine], samples[low:high].ravel()), _COARSE_SAMPLES)
+        asked.append((mine, low + which, start))
         # a nearest sample at a joint speaks for the curves on both sides of it, round the whole
-        first, last = index * _COARSE_SAMPLES - 1, (index + 1) * _COARSE_SAMPLES
-        low, high, end = np.searchsorted(ranks, [first, last + 1, len(samples) - 1])
-        beyond = order[end:] if first < 0 else order[:0], order[: np.searchsorted(ranks, last + 1 - len(samples))]
-        mine = np.concatenate([order[low:high], *beyond])
-        if mine.size:
-            start = np.clip(nearest[mine] - first - 1, 0, _COARSE_SAMPLES - 1)
-            found = _projected(points[mine], curve, parameters[index], start, newton=False)
-            best[mine] = np.minimum(best[mine], found)
-    return best
-
-
-def _thorough_distance(points: Complex, curves: Sequence[Curve], turns: Complex, most: Real) -> Real:
-    """On every curve that may be nearer than ``most``, what is known already."""
+        for at, step in ((0, -1), (last, 1)):
+            joint = np.flatnonzero(start == at)
+            asked.append((mine[joint], low + (which[joint] + step) % (high - low), last - start[joint]))
+    rows, which, start = (np.concatenate(x) for x in zip(*asked, strict=True))
     best = np.full(points.shape, np.inf)
-    for curve in curves:
-        t = _fine(curve)
-        samples = curve.point(t)
-        middle, reach = _disc(samples)
-        for turn in turns:
-            near = points * turn
-            mine = np.flatnonzero(np.abs(near - middle) - reach <= most)
-            if mine.size:
-                near = near[mine]
-                found = _projected(near, curve, t, _nearest_index(near, samples), newton=True)
-                if not isinstance(curve, Arc | Line):
-                    for block in np.array_split(np.arange(len(near)), math.ceil(len(near) * len(t) / _AT_ONCE)):
-                        found[block] = _on_other_branches(near[block], curve, t, samples, found[block])
-                best[mine] = np.minimum(best[mine], found)
+    place = np.empty(len(curves), dtype=np.int64)
+    for numbers, group in groups:
+        place[:], place[numbers] = -1, np.arange(len(numbers))
+        mine = np.flatnonzero(place[which] >= 0)
+        if mine.size:
+            asking = rows[mine]
+            np.minimum.at(
+                best, asking, _projected(points[asking], group, place[which[mine]], start[mine], newton=False)
+            )
     return best
 
 
-def _on_other_branches(points: Complex, curve: Curve, parameters: Real, samples: Complex, found: Real) -> Real:
+def _thorough_distance(
+    points: Complex, own: NDArrayInt, chains: Sequence[Sequence[Curve]], turns: Sequence[Complex], most: Real
+) -> Real:
+    """On every curve of its chain that may be nearer to a point than ``most``, what is known already."""
+    best = np.full(points.shape, np.inf)
+    curves = [c for chain in chains for c in chain]
+    chain_of = np.repeat(np.arange(len(chains)), [*map(len, chains)])
+    rows_of = [np.flatnonzero(own == k) for k in range(len(chains))]
+    nears = [[points[rows] * turn for turn in some] for rows, some in zip(rows_of, turns, strict=True)]
+    for numbers in _groups(curves):
+        some = [curves[i] for i in numbers]
+        group = _evenly(some, _FINE_SAMPLES) if len(some) > 1 else _sampled(some, _fine(some[0])[None])
+        middles, reaches = _discs(group.points)
+        asked: list[tuple[NDArrayInt, NDArrayInt, Complex]] = []
+        for chain in np.unique(chain_of[numbers]).tolist():
+            places = np.flatnonzero(chain_of[numbers] == chain)
+            for near in nears[chain]:
+                away = np.abs(near[:, None] - middles[places]) - reaches[places]
+                row, column = np.nonzero(away <= most[rows_of[chain], None])
+                asked.append((rows_of[chain][row], places[column], near[row]))
+        rows, which, near = (np.concatenate(x) for x in zip(*asked, strict=True))
+        if not rows.size:
+            continue
+        count = math.ceil(near.size * group.parameters.shape[1] / _AT_ONCE)
+        blocks = np.array_split(np.arange(len(near)), count)
+        if len(some) == 1:
+            start = _nearest_index(near, group.points[0])
+        else:
+            start = np.concatenate([np.abs(near[x, None] - group.points[which[x]]).argmin(axis=1) for x in blocks])
+        found = _projected(near, group, which, start, newton=True)
+        if not isinstance(some[0], Arc | Line):
+            ways = group.every(lambda curve, t: curve.derivatives(t, 1)[1])
+            for block in blocks:
+                found[block] = _on_other_branches(near[block], group, ways, which[block], found[block])
+        np.minimum.at(best, rows, found)
+    return best
+
+
+def _on_other_branches(points: Complex, group: _Alike, ways: Complex, which: NDArrayInt, found: Real) -> Real:
     """What is ``found`` from the nearest sample, or less.
 
     Of a curve that comes back beside itself, or turns between samples far from each other, a piece that does not end at
     that sample may be nearer: by half of its length than its nearer end at most. The distance falls at its start then
     and rises at its end. One that ends there is asked again, from its other end, where steps from there led nowhere.
     """
-    ways, spokes = curve.derivatives(parameters, 1)[1], points[:, None] - samples
-    gap, falls = np.abs(spokes), (np.conj(ways) * spokes).real
+    samples = group.points[which]
+    spokes = points[:, None] - samples
+    gap, falls = np.abs(spokes), (np.conj(ways[which]) * spokes).real
     least = np.minimum(gap[:, :-1], gap[:, 1:]) - _BULGE / 2 * np.abs(np.diff(samples))
-    apart = gap.argmin(axis=1)[:, None] - np.arange(len(samples) - 1)
+    apart = gap.argmin(axis=1)[:, None] - np.arange(samples.shape[1] - 1)
     others = ((apart != 0) & (apart != 1)) | (found >= gap.min(axis=1))[:, None]
     row, piece = np.nonzero((falls[:, :-1] >= 0) & (falls[:, 1:] <= 0) & (least < found[:, None]) & others)
     if row.size:
@@ -235,7 +339,7 @@ def _on_other_branches(points: Complex, curve: Curve, parameters: Real, samples:
         beside = apart[row, piece]
         nearer = gap[row, piece + 1] < gap[row, piece]
         start = piece + np.where(beside == 0, True, np.where(beside == 1, False, nearer))
-        np.minimum.at(found, row, _projected(points[row], curve, parameters, start, newton=True))
+        np.minimum.at(found, row, _projected(points[row], group, which[row], start, newton=True))
     return found
 
 
@@ -266,32 +370,34 @@ def _folded(points: Complex, profile: Profile) -> Complex:
     return points * np.exp(-1j * profile.pitch_angle * period)
 
 
-def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
-    """Distance from a curve by projection from the nearest sample; the steps stay beside it.
+def _projected(points: Complex, group: _Alike, which: NDArrayInt, start: NDArrayInt, *, newton: bool) -> Real:
+    """Distance of each point from one curve of a group by projection from its nearest sample; steps stay beside it.
 
     Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
     """
-    if isinstance(curve, Arc | Line):
-        return distance_to_plain(points, curve)
-    ends = curve.point(samples[[0, -1]])
-    found = np.abs(curve.point(_feet(points, curve, samples, start, newton=newton)) - points)
+    if isinstance(plain := group.curves[0], Arc | Line):
+        return distance_to_plain(points, plain)
+    curve, last = group.of(which), group.points.shape[1] - 1
+    ends = group.points[:, [0, -1]]
+    found = np.abs(curve.point(_feet(points, group, which, start, newton=newton)) - points)
     # where a curve is shut, the nearest sample is its first and its last one: the foot may lie on either side
-    seam = np.flatnonzero((start == 0) | (start == len(samples) - 1)) if abs(ends[1] - ends[0]) < _SHUT else start[:0]
+    shut = (np.abs(ends[:, 1] - ends[:, 0]) < _SHUT)[which]
+    seam = np.flatnonzero(shut & ((start == 0) | (start == last)))
     if seam.size:
-        other = _feet(points[seam], curve, samples, len(samples) - 1 - start[seam], newton=newton)
-        found[seam] = np.minimum(found[seam], np.abs(curve.point(other) - points[seam]))
-    return np.minimum(found, np.abs(ends[:, None] - points).min(0))
+        other = _feet(points[seam], group, which[seam], last - start[seam], newton=newton)
+        found[seam] = np.minimum(found[seam], np.abs(group.of(which[seam]).point(other) - points[seam]))
+    return np.minimum(found, np.abs(ends[which] - points[:, None]).min(1))
 
 
-def _feet(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
+def _feet(points: Complex, group: _Alike, which: NDArrayInt, start: NDArrayInt, *, newton: bool) -> Real:
     """Parameters of feet by steps from samples."""
-    low, high = curve.domain
-    reach = (high - low) / (min(len(samples), _FINE_SAMPLES) - 1)
-    t, before = samples[start], np.full(start.shape, math.nan)
+    lows, highs = group.parameters[which, 0], group.parameters[which, -1]
+    reaches = (highs - lows) / (min(group.parameters.shape[1], _FINE_SAMPLES) - 1)
+    t, before = group.parameters[which, start], np.full(start.shape, math.nan)
     rows = np.arange(len(t))
     for left in reversed(range(_THOROUGH_STEPS if newton else _QUICK_STEPS)):
-        at, mine = t[rows], points[rows]
-        point, first, *second = curve.derivatives(at, 2 if newton else 1)
+        at, mine, low, high, reach = t[rows], points[rows], lows[rows], highs[rows], reaches[rows]
+        point, first, *second = group.of(which[rows]).derivatives(at, 2 if newton else 1)
         gap = point - mine
         square = (np.conj(first) * first).real
         slope = square + sum((np.conj(gap) * x).real for x in second)
@@ -301,11 +407,11 @@ def _feet(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *
         step = np.where(square > 0, step, np.where(at > (low + high) / 2, reach / 2, -reach / 2))
         # what ``np.clip`` does, at half the cost
         following = np.minimum(np.maximum(at - np.minimum(np.maximum(step, -reach), reach), low), high)
-        # a foot that stays, or goes to and fro by a rounding, is where it will be after all steps, or one before
+        # a foot that all but stays, or goes to and fro by a rounding, is where all steps bring it, or one before
         swings = following == before[rows]
         t[rows] = np.where(swings, at if left % 2 else following, following)
         before[rows] = at
-        rows = rows[(following != at) & ~swings]
+        rows = rows[(np.abs(following - at) > _STILL * reach) & ~swings]
         if not rows.size:
             break
     return t

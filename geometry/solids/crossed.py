@@ -19,7 +19,7 @@ from geometry.base.record import replace
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
-from geometry.plane.measure import distance_to_profile, profile_area
+from geometry.plane.measure import distance_to_own, profile_area
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 from geometry.solids.body_faces import BodyFaces, body_outlines, cut_for_faces
@@ -269,25 +269,28 @@ def _to_wall(body: Body, wall: Wall) -> Callable[[Real], Real]:
 
     def distance(points: Real) -> Real:
         if not body.is_chamfer(wall):
-            return _to_profile(body.moved_back(wall, points), profile, far)
+            return _to_profiles([body.moved_back(wall, points)], [profile], far)[0]
         places, heights = points[:, 0] + 1j * points[:, 1], np.round(points[:, 2], _LEVEL_DIGITS)
         levels = np.clip(heights, *body.height(wall))
         found = np.abs(heights - levels)
-        beside = found < _BEYOND
-        for z in np.unique(levels[beside]).tolist():
-            mine = beside & (levels == z)
-            found[mine] = np.hypot(found[mine], _to_profile(places[mine], body.standing(wall, z), far))
+        beside = np.flatnonzero(found < _BEYOND)
+        each, own = np.unique(levels[beside], return_inverse=True)
+        mine = [beside[own == k] for k in range(len(each))]
+        sections = [body.standing(wall, z) for z in each.tolist()]
+        for rows, away in zip(mine, _to_profiles([places[rows] for rows in mine], sections, far), strict=True):
+            found[rows] = np.hypot(found[rows], away)
         return found
 
     return distance
 
 
-def _to_profile(places: Complex, profile: Profile, far: float) -> Real:
-    """How far places (n,) lie from a profile, mm; what is ``far`` lies on no curve of it and is not told so well."""
-    found = distance_to_profile(places, profile, trusted=math.inf)
-    doubtful = np.flatnonzero((found > _ON) & (found < far))
-    if doubtful.size:
-        found[doubtful] = distance_to_profile(places[doubtful], profile)
+def _to_profiles(places: Sequence[Complex], profiles: Sequence[Profile], far: float) -> list[Real]:
+    """How far places (n,) lie from their profiles, mm; what is ``far`` lies on no curve and is not told so well."""
+    found = distance_to_own(places, profiles, trusted=math.inf)
+    doubtful = [np.flatnonzero((x > _ON) & (x < far)) for x in found]
+    thorough = distance_to_own([x[k] for x, k in zip(places, doubtful, strict=True)], profiles)
+    for own, rows, better in zip(found, doubtful, thorough, strict=True):
+        own[rows] = better
     return found
 
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import Self
+from collections.abc import Sequence
+from typing import Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +19,7 @@ from geometry.base.errors import CuspError
 from geometry.base.record import Record, replace
 from geometry.base.series import FACTORIALS, Series, composed, derived, product
 from geometry.curves.bounds import BoundedSpan
-from geometry.curves.curve import Complex, Real, first_turning
+from geometry.curves.curve import Complex, Curve, Indices, Real, first_turning
 from geometry.gears.noncircular.pitch_line import PitchLine
 
 _SAMPLES, _FAR = 33, 0.05
@@ -32,9 +33,9 @@ class RolledCurve(BoundedSpan):
     @property
     def family(self) -> tuple[object, ...]:
         """What curves of neighbouring teeth that are nearly alike have in common."""
-        return (type(self), *(math.copysign(1.0, x) for x in self._senses()))
+        return (type(self), *(math.copysign(1.0, float(x)) for x in self._senses()))
 
-    def _senses(self) -> tuple[float, ...]:
+    def _senses(self) -> tuple[float | Real, ...]:
         """Numbers whose signs tell them apart."""
         return (self.end - self.start,)
 
@@ -100,12 +101,19 @@ class RolledFlank(RolledCurve, Record):
     """
 
     line: PitchLine
-    crossing: float
+    crossing: float | Real
     angle: float
     start: float
     end: float
 
-    def _senses(self) -> tuple[float, ...]:
+    @property
+    def alike(self) -> object:
+        return RolledFlank, self.line, self.angle
+
+    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
+        return replace(self, crossing=np.array([c.crossing for c in cast("Sequence[Self]", curves)])[which])
+
+    def _senses(self) -> tuple[float | Real, ...]:
         return (self.angle,)
 
     @property
@@ -160,11 +168,20 @@ class RolledFillet(RolledCurve, Record):
     line: PitchLine
     centre: float | Real
     depth: float
-    tip_radius: float
+    tip_radius: float | Real
     start: float
     end: float
 
-    def _senses(self) -> tuple[float, ...]:
+    @property
+    def alike(self) -> object:
+        return RolledFillet, self.line, self.depth
+
+    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
+        own = cast("Sequence[Self]", curves)
+        centre, radius = (np.array(x)[which] for x in ([c.centre for c in own], [c.tip_radius for c in own]))
+        return replace(self, centre=centre, tip_radius=radius)
+
+    def _senses(self) -> tuple[float | Real, ...]:
         return self.end - self.start, self.end + self.start
 
     def _arc(self, u: Real) -> Real:
@@ -200,7 +217,7 @@ class RolledFillet(RolledCurve, Record):
         places = self._arc(a), self._arc(b)
         base = self.line.series_bound(order + 1, np.minimum(*places), np.maximum(*places))
         tan = _tangent_series(np.tan(np.maximum(np.abs(a), np.abs(b))), order)
-        depth, radius = abs(self.depth), abs(self.tip_radius)
+        depth, radius = abs(self.depth), np.abs(self.tip_radius)
         step = [0.0 * a, *(depth * x for x in tan[1:])]
         arm = [depth * x + radius / FACTORIALS[k] for k, x in enumerate(tan)]
         arm[0] = arm[0] + depth
@@ -216,11 +233,18 @@ class RolledLand(RolledCurve, Record):
     """A parallel of the centrode ``height`` mm outside it: c(s) - i h T(s); the tip, and what the rack's tip leaves."""
 
     line: PitchLine
-    height: float
+    height: float | Real
     start: float
     end: float
 
-    def _senses(self) -> tuple[float, ...]:
+    @property
+    def alike(self) -> object:
+        return RolledLand, self.line
+
+    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
+        return replace(self, height=np.array([c.height for c in cast("Sequence[Self]", curves)])[which])
+
+    def _senses(self) -> tuple[float | Real, ...]:
         return (self.height,)
 
     def series(self, t: ArrayLike, order: int) -> Series:
