@@ -57,6 +57,9 @@ def sheet(keys: SpurKeys) -> Sheet:
     measured, face = (keys.measured_span, keys.measured_over_pins), (keys.face_width, keys.double_helical)
     asked = Asked(helix, *face, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
     measured_steps(page, gear, asked)
+    if keys.crowning:
+        page.note(N_("crowned teeth: their sizes are those in the middle of the face; "
+                     "at either face the span is {less:g} mm less"), less=2 * keys.crowning)  # fmt: skip
     page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     return page
 

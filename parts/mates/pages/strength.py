@@ -7,6 +7,7 @@ own closed form stands beside it as the formula.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from typing import Any, cast
 
@@ -37,6 +38,10 @@ _PART_1 = "ISO 6336-1"
 # what multiplies the load
 _OF_LOAD = ("application_factor", "dynamic_factor", "face_load_factor", "root_face_load_factor",
             "transverse_load_factor", "root_transverse_load_factor")  # fmt: skip
+# what the materials bear by their limits
+_OF_CONTACT = ("least_contact_safety", "oil_viscosity", "flank_roughness", "flank_factor", "contact_size_factor",
+               "hardening_factor")  # fmt: skip
+_OF_BENDING = ("least_bending_safety", "surface_factor", "gradient_factor", "reversing_factor", "root_roughness")
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -94,13 +99,11 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
     if rated.keys.method == "GOST 21354":
         gost_steps(page, rated, loaded=torque is not None)
     else:
-        _check_iso(rated)
         if torque is not None:
             _load_factors(page, rated)
-        else:
-            check_not_in_vain(rated.keys, ("least_contact_safety", "least_bending_safety"), "torque")
         for steps in (flank_stress, flank_allowed, root_stress, root_allowed):
             steps(page, rated, loaded=torque is not None)
+    _check_vain(page, rated, loaded=torque is not None)
     if torque is not None:
         _torques(page, rated, torque)
         _summary(page)
@@ -110,13 +113,42 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
     return page
 
 
-def _check_iso(rated: Rated) -> None:
-    """Refuse keys that act only with a life, or with the materials of which a table goes by the yield strength."""
+def _check_vain(page: Sheet, rated: Rated, *, loaded: bool) -> None:
+    """Refuse keys that act only with what is not given: limits of the materials, their group, a life, a load."""
+    keys, iso = rated.keys, rated.keys.method != "GOST 21354"
+
+    def vain(names: Sequence[str], other: str) -> None:
+        check_not_in_vain(keys, [name for name in names if name not in rated.unused], other)
+
+    # a group gives its limits, where the method has them
+    given = iso and keys.material_group is not None
+    contact, bending = (
+        given or any(f"{key}{index}" in page.known for index in (1, 2)) or limit is not None
+        for key, limit in (("sigma_Hlim", keys.contact_limit), ("sigma_Flim", keys.bending_limit))
+    )  # fmt: skip
+    if iso and not loaded:
+        vain(("least_contact_safety", "least_bending_safety"), "torque")
+    if not (contact or bending):
+        vain(("load_cycles", "life_hours"), "material_group")
+    if not contact:
+        vain(_OF_CONTACT, "contact_limit")
+    if not bending:
+        vain(_OF_BENDING, "bending_limit")
+    if keys.material_group is None:
+        vain(("material_quality", "root_roughness", "long_life_factor", "pits_allowed"), "material_group")
+        if iso or rated.cycles is None:
+            vain(("hardness",), "material_group")
     if rated.cycles is None:
-        check_not_in_vain(rated.keys, ("long_life_factor", "pits_allowed"), "load_cycles")
+        vain(("long_life_factor", "pits_allowed"), "load_cycles")
     if not any(group is not None and len(group.slip) > 1 for group in rated.groups):
         names = ", ".join(f'"{name}"' for name, group in GROUPS.items() if len(group.slip) > 1)
-        check_not_in_vain(rated.keys, ("yield_strength",), f"material_group = {names}")
+        vain(("yield_strength",), f"material_group = {names}")
+    if not rated.helix:
+        vain(("profile_factor",), "helix_angle_deg")
+    if not (loaded or contact or keys.life_hours):
+        vain(("speed_rpm",), "torque")
+    if iso and not (loaded and keys.speed_rpm) and rated.value(page, "Y_DT") == 1:
+        vain(("accuracy_grade",), "speed_rpm" if loaded else "torque")
 
 
 def _mesh(page: Sheet, rated: Rated, wanted: str) -> None:

@@ -1393,3 +1393,16 @@ def test_rows_of_the_tables_are_refused_where_no_table_is_printed(angle: str, ro
         calculate("involute", [angle, row], "text", "en")
     assert refused.value.key == f"involute.{row.partition('=')[0]}"
     assert refused.value.numbers["other"] == angle.partition("=")[0]
+
+
+def test_a_crowned_gear_is_told_that_its_sizes_are_those_of_the_middle() -> None:
+    """A calliper at a face reads what the same teeth thinned by the crowning have: nobody said so."""
+    words = ["module=2", "number_of_teeth=23"]
+    plain, crowned, face = (
+        json.loads(calculate("spur", [*words, *more], "json", "en"))
+        for more in ([], ["crowning=0.02"], [f"circumferential_thinning={0.04 / math.cos(math.radians(20))}"])
+    )
+    assert crowned["values"] == plain["values"]
+    less = plain["values"]["span"] - face["values"]["span"]
+    (note,) = set(crowned["notes"]) - set(plain["notes"])
+    assert f"the span is {less:.6g} mm less" in note

@@ -266,7 +266,8 @@ def test_the_load_helps_no_tooth() -> None:
         ((*RING, GOST), "no formula for Y_FS of a ring"),
         ((*PAIR, "torque=10", "material_group=V", "hardness=250"), "of its group in contact"),
         ((*PAIR, "torque=10", "material_group=V", "hardness=250"), "of its group in bending"),
-        ((*PAIR, "form_factor=3", "pits_allowed=true", "load_cycles=1e6"), "ISO 6336 has no form_factor: not used"),
+        ((*PAIR, "form_factor=3", "pits_allowed=true", "load_cycles=1e6", "material_group=Eh"),
+         "ISO 6336 has no form_factor: not used"),
         ((*PAIR, GOST, "oil_viscosity=100", "pits_allowed=true"), "has no pits_allowed, oil_viscosity: not used"),
         ((*PAIR, "method=ISO 6336:2006", "profile_factor=1.1"), "ISO 6336:2006 has no profile_factor: not used"),
         ((*PAIR, GOST, "material_group=Eh"), "without bending_limit the root has no safety"),
@@ -330,7 +331,28 @@ def test_what_multiplies_a_load_is_refused_without_one(method: str, key: str) ->
     assert refusal is not None
     assert (refusal.code, refusal.numbers["other"]) == ("needs_other", "torque")
     assert refusal.key == f"strength.{key.partition('=')[0]}"
-    assert made([*PAIR, method, key, "torque=10"])[1] is None
+    assert made([*PAIR, method, key, "torque=10", "contact_limit=900", "bending_limit=300"])[1] is None
+
+
+OF_LIMITS = ("accuracy_grade=7", "load_cycles=1e5", "oil_viscosity=100", "material_quality=ME", "hardness=200",
+             "flank_roughness=5", "root_roughness=20", "flank_factor=0.9", "contact_size_factor=0.9",
+             "hardening_factor=1.1", "surface_factor=0.9", "gradient_factor=0.9", "reversing_factor=0.7",
+             "speed_rpm=300", "profile_factor=1.1", *SAFETIES)  # fmt: skip
+
+
+@pytest.mark.parametrize("method", ["method=ISO 6336", GOST])
+@pytest.mark.parametrize("given", [(), ("contact_limit=900",), ("bending_limit=300",)])
+def test_a_key_that_changes_nothing_is_refused(given: tuple[str, ...], method: str) -> None:
+    """Of a life, a hardness or an oil without limits nothing was printed, and nobody said so."""
+    plain, _ = made([*PAIR, method, *given])
+    for key in OF_LIMITS:
+        page, refusal = made([*PAIR, method, *given, key])
+        if refusal is not None:
+            assert refusal.code == "needs_other"
+        # a film of oil is 1 by GOST up to 5 m/s
+        elif "speed" not in key or method != GOST:
+            assert page is not None
+            assert (page.known, page.notes) != (plain.known, plain.notes), key
 
 
 def test_the_command_tells_one_line(capsys: pytest.CaptureFixture[str]) -> None:
