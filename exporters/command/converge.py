@@ -49,7 +49,7 @@ def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], to
         (N_("measured, mm"), lambda r: f"{r.measured:.3g}"),
         (N_("edges"), lambda r: str(r.entities)),
         (N_("kB"), lambda r: f"{r.bytes / 1000:.1f}"),
-        (N_("ms (median)"), lambda r: f"{1000 * r.seconds:.2f}"),
+        (N_("ms (least)"), lambda r: f"{1000 * r.seconds:.2f}"),
         (N_("spread, ms"), lambda r: f"{1000 * r.spread:.2f}"),
     )
     show(told.text("error against run time"), columns, rungs, told, [])

@@ -14,6 +14,12 @@ _HEIGHT, _LEFT, _BOTTOM, _TOP, _RIGHT = 434.0, 70.0, 50.0, 44.0, 530.0
 # of text of 12 px: more than the mean width of a letter in common fonts, and from line to line of the key
 _LETTER, _LINE = 8.0, 16.0
 _COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
+# of the lines when the colours come round again
+_DASHES = ("none", "7 3", "2 2")
+# of a line in the key, beside the field and before its name
+_SAMPLE, _GAP = 22.0, 8.0
+# so many decades beside each other have their numbers at every line
+_MANY = 12
 
 
 def write_loglog(file: Path, title: str, axes: tuple[str, str], series: list[Series]) -> None:
@@ -23,7 +29,8 @@ def write_loglog(file: Path, title: str, axes: tuple[str, str], series: list[Ser
     points = [p for _, row in kept for p in row]
     x_axis, y_axis = _decades([p[0] for p in points]), _decades([p[1] for p in points])
     names = [name for name, _ in kept]
-    width = max(_RIGHT + 28 + _LETTER * max(map(len, names)), _LEFT + _LETTER * len(title))
+    key = _RIGHT + 2 * _GAP
+    width = max(key + _SAMPLE + 2 * _GAP + _LETTER * max(map(len, names)), _LEFT + _LETTER * len(title))
     height = max(_HEIGHT, _TOP + _LINE * (len(names) + 1))
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
@@ -31,16 +38,20 @@ def write_loglog(file: Path, title: str, axes: tuple[str, str], series: list[Ser
         GROUND,
         _text(_LEFT, 18, title),
         _text(_LEFT, _HEIGHT - 10, axes[0]),
-        _text(8, _TOP - 8, axes[1]),
+        _text(8, _TOP - 12, axes[1]),
     ]
     lines += _grid(x_axis, y_axis)
     for index, (name, row) in enumerate(kept):
-        colour = _COLOURS[index % len(_COLOURS)]
+        turn, of = divmod(index, len(_COLOURS))
+        colour, y_key = _COLOURS[of], _TOP + _LINE * (index + 1)
+        line = f"fill:none;stroke:{colour};stroke-width:1.5;stroke-dasharray:{_DASHES[turn % len(_DASHES)]}"
+        mark = f"stroke:{colour};fill:{'#ffffff' if turn else colour}"
         places = [(_at(p[0], x_axis, _LEFT, _RIGHT), _at(p[1], y_axis, _HEIGHT - _BOTTOM, _TOP)) for p in row]
         path = " ".join(f"{x:.2f},{y:.2f}" for x, y in places)
-        lines.append(f'<polyline points="{path}" style="fill:none;stroke:{colour};stroke-width:1.5"/>')
-        lines += [f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3" style="fill:{colour}"/>' for x, y in places]
-        lines.append(_text(_RIGHT + 14, _TOP + _LINE * (index + 1), name, colour))
+        lines.append(f'<polyline points="{path}" style="{line}"/>')
+        lines += [f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3" style="{mark}"/>' for x, y in places]
+        lines.append(f'<path d="M{key:g},{y_key - 4:g} h{_SAMPLE:g}" style="{line}"/>')
+        lines.append(_text(key + _SAMPLE + _GAP, y_key, name, colour))
     save(file, lines)
 
 
@@ -64,7 +75,8 @@ def _grid(x_axis: tuple[int, int], y_axis: tuple[int, int]) -> list[str]:
     for decade in range(x_axis[0], x_axis[1] + 1):
         x = _at(10.0**decade, x_axis, _LEFT, _RIGHT)
         lines.append(f'<line x1="{x:.2f}" y1="{_TOP:g}" x2="{x:.2f}" y2="{_HEIGHT - _BOTTOM:g}" style="{style}"/>')
-        lines.append(_text(x - 12, _HEIGHT - _BOTTOM + 16, f"1e{decade}"))
+        if x_axis[1] - x_axis[0] <= _MANY or not (decade - x_axis[0]) % 2:
+            lines.append(_text(x - 12, _HEIGHT - _BOTTOM + 16, f"1e{decade}"))
     for decade in range(y_axis[0], y_axis[1] + 1):
         y = _at(10.0**decade, y_axis, _HEIGHT - _BOTTOM, _TOP)
         lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_RIGHT:g}" y2="{y:.2f}" style="{style}"/>')

@@ -76,8 +76,26 @@ def test_points_stand_by_the_lines_of_their_decades(tmp_path: Path) -> None:
         assert points[:, 1] == pytest.approx(bottom - (told[:, 1] + 4) / 4 * (bottom - top), abs=0.02)
         assert words[name][0] > right
         exact += [(*p, colour) for p in points.tolist()]
-    told = [(float(m["cx"]), float(m["cy"]), m["style"][-7:]) for m in marks]
+    told = [(float(m["cx"]), float(m["cy"]), m["style"].split("stroke:")[1][:7]) for m in marks]
     assert told == exact
     assert top <= words["one"][1] < words["two & <more>"][1]
     assert float(root.attrib["height"]) > words["time"][1] > bottom
     assert words["error"][1] < top
+
+
+def test_lines_are_told_apart_and_each_stands_in_the_key(tmp_path: Path) -> None:
+    """Eight colours went round: of two files with one colour nobody knew which was which."""
+    file = tmp_path / "p.svg"
+    runs = [(f"run {k}", [1.0, 1e15], [1.0, 10.0 ** -(k + 1)]) for k in range(22)]
+    write_loglog(file, "title", ("time", "error"), runs)
+    every = [(e.tag.rpartition("}")[2], e) for e in ET.parse(file).getroot().iter()]
+    drawn = [e.attrib["style"] for tag, e in every if tag == "polyline"]
+    assert len(set(drawn)) == len(runs)
+    assert [e.attrib["style"] for tag, e in every if tag == "path"] == drawn
+    # of the numbers below none runs into the next, nor into the key
+    below = sorted(
+        (float(e.attrib["x"]), e.text or "") for tag, e in every if tag == "text" and e.attrib["y"] == "400.00"
+    )
+    ends = [x + _LETTER * len(text) for x, text in below]
+    assert all(end < x for end, (x, _) in zip(ends, below[1:], strict=False))
+    assert ends[-1] < min(float(e.attrib["d"][1:].split(",")[0]) for tag, e in every if tag == "path")
