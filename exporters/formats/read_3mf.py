@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 import zlib
+from array import array
 from pathlib import Path
 from typing import NamedTuple
 from xml.etree import ElementTree
@@ -38,8 +39,51 @@ _KNOWN: dict[str, dict[str, tuple[str, ...]]] = {
     "build": {_UUID: ()},
     "item": {"objectid": (), "transform": (), "partnumber": (), "printable": ("1", "true"), _UUID: ()},
 }
+# elements of which there are a million, and what stands for one
+_MANY, _NOTHING, _AT_ONCE = ("vertex", "triangle"), ElementTree.Element(""), 1 << 16
 _MODEL, _STARTS, _TYPES = "3D/3dmodel.model", "_rels/.rels", "[Content_Types].xml"
 _START = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+
+
+class _Numbers(NamedTuple):
+    """Those of a mesh, one behind the other: places of vertices, and vertices of triangles."""
+
+    places: array[float]
+    corners: array[int]
+
+
+class _Reader(ElementTree.TreeBuilder):
+    """A model's tree but for the many elements of its meshes, of which the numbers alone are kept, by object.
+
+    All that stands in the model is known, and says that the part is one to be made, as it is.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.meshes: dict[ElementTree.Element, _Numbers] = {}
+        self.own: _Numbers | None = None
+
+    def start(self, tag: str, attrs: dict[str, str]) -> ElementTree.Element:
+        name = tag.removeprefix(_CORE)
+        _check_known(name, attrs)
+        if name not in _MANY:
+            element = super().start(tag, attrs)
+            if name == "object":
+                self.own = self.meshes[element] = _Numbers(array("d"), array("q"))
+            return element
+        if self.own is None:
+            raise ReadError(f"a <{name}> of the 3MF stands in no object")
+        try:
+            if name == "vertex":
+                self.own.places.extend([float(attrs.get(k, "")) for k in "xyz"])
+            else:
+                self.own.corners.extend([int(attrs.get(k, "")) for k in ("v1", "v2", "v3")])
+        except (ValueError, OverflowError) as error:
+            raise ReadError(f"a broken number in the 3MF: {error}") from error
+        return _NOTHING
+
+    def end(self, tag: str) -> ElementTree.Element:
+        return _NOTHING if tag.removeprefix(_CORE) in _MANY else super().end(tag)
 
 
 class _Base(NamedTuple):
@@ -51,17 +95,17 @@ class _Base(NamedTuple):
 
 def read_3mf(file: Path) -> ReadMesh:
     """The single object of a 3MF package, built once where it stands."""
-    root = _model(file)
+    root, meshes = _model(file)
     objects, items = root.findall(f".//{_CORE}object"), root.findall(f".//{_CORE}item")
     refuse_if(len(objects) != 1 or len(items) != 1, "the 3MF does not hold one object, built once")
     if items[0].get("transform") is not None:
         raise ReadError("the part of the 3MF has been moved out of its frame")
-    return _mesh(objects[0], _base(objects[0], _bases(root)))
+    return _mesh(objects[0], meshes[objects[0]], _base(objects[0], _bases(root)))
 
 
 def read_3mf_assembly(file: Path) -> ReadAssembly:
     """Every object and build item of a 3MF package; components of components are refused."""
-    root = _model(file)
+    root, meshes = _model(file)
     title = next((m.text or "" for m in root.findall(f"{_CORE}metadata") if m.get("name") == "Title"), "")
     bases = _bases(root)
     prototypes: list[Prototype] = []
@@ -70,7 +114,7 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
         if item.find(f"{_CORE}mesh") is None:
             raise ReadError("an object of the 3MF holds no mesh of its own")
         index[item.get("id")] = len(prototypes)
-        mesh = _mesh(item, _base(item, bases))
+        mesh = _mesh(item, meshes[item], _base(item, bases))
         prototypes.append(Prototype(mesh.name or "", mesh, mesh.colour))
     occurrences = []
     for item in root.iter(f"{_CORE}item"):
@@ -110,8 +154,8 @@ def _transform(item: ElementTree.Element) -> Real:
     return numbers.reshape(4, 3).T
 
 
-def _model(file: Path) -> ElementTree.Element:
-    """The root of the model in a whole package, in mm."""
+def _model(file: Path) -> tuple[ElementTree.Element, dict[ElementTree.Element, _Numbers]]:
+    """The root of the model in a whole package, in mm, and the numbers of each object's mesh."""
     try:
         with zipfile.ZipFile(file) as package:
             inside = sum(entry.file_size for entry in package.infolist())
@@ -126,35 +170,32 @@ def _model(file: Path) -> ElementTree.Element:
             relations = ElementTree.fromstring(package.read(_STARTS))
             starts = [r.get("Target") for r in relations if r.get("Type") == _START]
             refuse_if(starts != [f"/{_MODEL}"], f"the 3MF package begins with {starts} instead of its model")
-            root = ElementTree.fromstring(package.read(_MODEL))
+            reader = _Reader()
+            parser = ElementTree.XMLParser(target=reader)
+            with package.open(_MODEL) as model:
+                while block := model.read(_AT_ONCE):
+                    parser.feed(block)
+            root: ElementTree.Element = parser.close()
     except (zipfile.BadZipFile, KeyError, ElementTree.ParseError, OSError, EOFError, zlib.error) as error:
         raise ReadError(f"not a readable 3MF: {error}") from error
     refuse_if(root.get("unit") != "millimeter", "the 3MF is not in mm")
-    _check_known(root)
-    return root
+    return root, reader.meshes
 
 
-def _check_known(root: ElementTree.Element) -> None:
-    """All that stands in the model is known, and says that the part is one to be made, as it is."""
-    for element in root.iter():
-        tag = element.tag.removeprefix(_CORE)
-        known = _KNOWN.get(tag)
-        if known is None:
-            raise ReadError(f"the 3MF holds <{tag}>, which is not read here")
-        for name, value in element.items():
-            refuse_if(name not in known, f"a <{tag}> of the 3MF has {name}, which is not read here")
-            if (allowed := known[name]) and value not in allowed:
-                raise ReadError(f'a <{tag}> of the 3MF has {name} = "{value}"')
+def _check_known(tag: str, values: dict[str, str]) -> None:
+    known = _KNOWN.get(tag)
+    if known is None:
+        raise ReadError(f"the 3MF holds <{tag}>, which is not read here")
+    for name, value in values.items():
+        refuse_if(name not in known, f"a <{tag}> of the 3MF has {name}, which is not read here")
+        if (allowed := known[name]) and value not in allowed:
+            raise ReadError(f'a <{tag}> of the 3MF has {name} = "{value}"')
 
 
-def _mesh(item: ElementTree.Element, base: _Base) -> ReadMesh:
+def _mesh(item: ElementTree.Element, numbers: _Numbers, base: _Base) -> ReadMesh:
     """The mesh of an object."""
-    try:
-        corners = [[float(v.get(k, "")) for k in "xyz"] for v in item.iter(f"{_CORE}vertex")]
-        rows = [[int(t.get(k, "")) for k in ("v1", "v2", "v3")] for t in item.iter(f"{_CORE}triangle")]
-        vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
-    except (ValueError, OverflowError) as error:
-        raise ReadError(f"a broken number in the 3MF: {error}") from error
+    vertices = np.array(numbers.places).reshape(-1, 3)
+    triangles = np.array(numbers.corners, dtype=np.int64).reshape(-1, 3)
     if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
         raise ReadError("a 3MF triangle names a vertex that is not there")
     # an object that has a part number is called by it, and its name is what people read

@@ -55,7 +55,7 @@ _ABOVE, _NEAR = 1.05, 0.05
 _DOUBLINGS, _COARSE, _SPARE = 6, 16.0, 1.75
 # so many times fewer triangles are offered of a mesh that is proven, and proven again where it is read back
 _PROVEN = 3.0
-# of these so many times fewer: writing and reading back takes 1.1 kB of memory an edge of an STL, 2.8 of a 3MF's text
+# of these so many times fewer: writing and reading back takes up to 1.1 kB of memory an edge
 _HEAVIER = {"stl": 2, "3mf": 4}
 # a float32 coordinate is good to 2^-24 of its size, both of them together to sqrt(2) of that; the rest is for the grid
 # on which vertices stand before
