@@ -305,6 +305,7 @@ def _ways(loops: Sequence[Loop], strokes: Sequence[Complex], expected: ExpectedB
         found["engraved_length" if loop.layer == "ENGRAVE" else "cut_length"] += float(arcs.sum())
         found["way_between"] += float(abs(loop.vertices[0] - at))
         at = complex(loop.vertices[0])
-    if expected.board.feed is not None:
-        found["cut_seconds"] = (found["cut_length"] + found["engraved_length"]) / expected.board.feed
+    if (feed := expected.board.feed) is not None:
+        engraving = found["engraved_length"] / (expected.board.engraving_feed or feed)
+        found["cut_seconds"] = found["cut_length"] / feed + engraving
     return found

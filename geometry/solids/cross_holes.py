@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve, Real
@@ -143,7 +143,17 @@ def check_cross_holes(
                 refusal = ParameterError("hub.set_screws.diameter", size, "set_screws_wider_than_bore", cure)
             raise refusal
         narrow.append(mouth.half_angle(hole.radius) + wall / mouth.away / 2)
-    for i, j in itertools.combinations(range(len(holes)), 2):
-        apart = abs(cmath.phase(cmath.rect(1.0, holes[i].angle - holes[j].angle)))
-        if not apart >= narrow[i] + narrow[j]:
-            raise ParameterError("hub.set_screws.count", len(holes), "set_screws_meet")
+    _check_apart([hole.angle for hole in holes], narrow)
+
+
+def _check_apart(angles: Sequence[float], half: Sequence[float]) -> None:
+    """Refuse holes whose mouths, of ``half`` an angle and a wall, meet: the spacing of neighbours, else their count."""
+    for j, i in itertools.product(range(len(angles)), repeat=2):
+        given = angles[j] - angles[i]
+        turned, least = math.remainder(given, math.tau), half[i] + half[j]
+        if i >= j or abs(turned) >= least * (1 - _SAME):
+            continue
+        if j > 1:
+            raise ParameterError("hub.set_screws.count", len(angles), "set_screws_meet", Nearest(j, "at_most"))
+        typed, near = (round(math.degrees(a), 9) for a in (given, given - turned + math.copysign(least, turned)))
+        raise ParameterError("hub.set_screws.spacing_deg", typed, "set_screws_meet", limit(near, typed))

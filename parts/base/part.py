@@ -48,7 +48,13 @@ class Part(Record, dict=True):
     @cached_property
     def section(self) -> Callable[[float], OffsetRegion]:
         """The exact flat section, every boundary moved so many mm out of the material."""
-        return lru_cache(maxsize=8)(lambda offset: self.made_by.section(self.keys, self.thing, offset))
+        return lru_cache(maxsize=8)(self._section)
+
+    def _section(self, offset: float) -> OffsetRegion:
+        made = self.made_by.section(self.keys, self.thing, offset)
+        radii = {key: value_at(self.keys, f"{key}.corner_radius") or 0.0 for key in ("spokes", "bore")}
+        left = [Finding(f"corners_of_{key}", offset, radius) for key, radius in radii.items() if 0 < radius < offset]
+        return replace(made, findings=(*made.findings, *left)) if left else made
 
     @cached_property
     def cut(self) -> Callable[..., OffsetRegion]:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import REMOVED, SceneError, meant
 from parts.keys.base import mm, part_mm, size
 
 # the tables, and the purpose of exports that lay parts out on them
@@ -48,6 +48,7 @@ _THICKNESS = mm(
     example=3.0,
 )
 _FEED = size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
+_ENGRAVING = size("mm/s", "speed of engraving; default: feed", above=0, most=10_000, example=100.0)
 Kerf = Annotated[
     float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10, length=False)
 ]
@@ -62,6 +63,7 @@ class BoardSpec(LaidKeys, kw_only=True):
     kerf: Kerf = 0.0
     grain: Annotated[bool, _GRAIN] = False
     feed: Annotated[float, _FEED] | None = None
+    engraving_feed: Annotated[float, _ENGRAVING] | None = None
 
     @property
     def across(self) -> float:
@@ -105,6 +107,8 @@ def check_laid(
         if name not in known and name not in names:
             every = list({**known, **names})
             raise SceneError(source, f"{place}.copies", name, "no_such_part", meant(name, every), known=every)
+    if isinstance(spec, BoardSpec) and spec.engraving_feed is not None and spec.feed is None:
+        raise SceneError(source, f"{place}.engraving_feed", spec.engraving_feed, "needs_other", REMOVED, other="feed")
     least = min(spec.width, spec.across)
     if 2 * spec.margin >= least:
         raise SceneError(source, f"{place}.margin", spec.margin, "margins_leave_nothing", None, side=least)

@@ -17,7 +17,7 @@ from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import part_mm
-from parts.keys.holes import BoredKeys, holes_of, spoked, with_remedy
+from parts.keys.holes import BoredKeys, holes_of, spoked, wide_bore, with_remedy
 from parts.keys.wheel import HubbedKeys, shape_of
 
 LobeCount = Annotated[int, Meta(ge=2, le=1000, description="number of lobes z of the disc", examples=[11])]
@@ -52,6 +52,8 @@ def check_holes(keys: BoredKeys, holes: HubHoles, radius: float, own: int = 0, c
     if holes.bore is not None and holes.bore_reach > inside and keys.bore_diameter > 0:
         most = most_of(2 * inside, keys.bore_diameter)
         raise ParameterError("bore_diameter", keys.bore_diameter, "no_wall_around_bore", most)
+    if centre and holes.bore_reach > inside:
+        raise wide_bore(keys, inside, "no_wall_around_bore")
 
     def fits(changed: BoredKeys) -> bool:
         return holes_of(changed, *holes.round_holes[:own]).fits(radius - centre)

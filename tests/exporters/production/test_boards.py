@@ -54,6 +54,7 @@ grain = {grain}
 sets = 2
 copies = {{ bar = 3 }}
 feed = 10.0
+engraving_feed = 80.0
 {more}
 """
 EXPORTS = """
@@ -169,10 +170,13 @@ def test_pieces_are_whole_on_the_board_and_apart(folder: Path) -> None:
         length = sum(polygon(rows).length for _, rows in contours(file))
         names = [rows[:, :2] for _, rows in contours(file, closed=False)]
         assert shapely.contains(shapely.union_all(bodies).buffer(-0.125), shapely.MultiLineString(names))
-        length += shapely.MultiLineString(names).length
+        engraved = shapely.MultiLineString(names).length
+        length += engraved
+        engraved += sum(polygon(rows).length for layer, rows in contours(file) if layer == "ENGRAVE")
+        seconds = (length - engraved) / 10 + engraved / 80
         told = entry["measured"]
         assert told["cut_length"] + told["engraved_length"] == pytest.approx(length, rel=1e-4)
-        assert told["cut_seconds"] == pytest.approx(length / 10, rel=1e-4)
+        assert told["cut_seconds"] == pytest.approx(seconds, rel=1e-4)
     assert counts == {"ring": 2, "wheel": 2, "bar": 6}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -199,3 +200,46 @@ def test_a_chamfered_face_has_room_for_digits_as_one_that_ends_where_its_chamfer
         assert refused.nearest is not None
         most.append(refused.nearest.value)
     assert most[0] == pytest.approx(most[1], rel=1e-9)
+
+
+def room(**screws: float) -> tuple[str, float, str] | None:
+    """The key of screws of 2.5 mm in a bore of 5 mm, and hub of 14 mm, that is refused, and what would work."""
+    refused = refusal({**SCREWED, "hub": {**HUB, "set_screws": {"diameter": 2.5, **screws}}})
+    if refused is None:
+        return None
+    assert refused.code == "set_screws_meet"
+    found = refused.nearest
+    return refused.key.rpartition(".")[2], 0.0 if found is None else found.value, "" if found is None else found.side
+
+
+@pytest.mark.parametrize(
+    ("given", "turned", "side"),
+    [(20.0, 0.0, "at_least"), (0.0, 0.0, "at_least"), (340.0, 360.0, "at_most"), (-20.0, 0.0, "at_most")],
+)
+def test_holes_that_meet_are_told_how_far_apart_they_have_room(given: float, turned: float, side: str) -> None:
+    """Each takes asin(r / R) of the bore to either side, and half of a wall of 0.5 % of the hub's radius, 0.035 mm."""
+    step = 2 * math.degrees(math.asin(1.25 / 2.5) + 0.035 / 2.5 / 2)
+    least = turned + step if (turned == 0) == (given >= 0) else turned - step
+    told = room(count=2, spacing_deg=given)
+    assert told == ("spacing_deg", pytest.approx(least, abs=1e-4), side)
+    assert room(count=2, spacing_deg=told[1]) is None
+    assert room(count=2, spacing_deg=least + (-1e-6 if side == "at_least" else 1e-6)) is not None
+
+
+@pytest.mark.parametrize(("spacing", "most"), [(90.0, 4), (120.0, 3), (61.0, 5), (180.0, 2), (75.0, 4)])
+def test_holes_that_meet_are_told_how_many_have_room(spacing: float, most: int) -> None:
+    """As many as come round before one is nearer than 60.8 degrees to another."""
+    assert room(count=12, spacing_deg=spacing) == ("count", most, "at_most")
+    assert room(count=most, spacing_deg=spacing) is None
+    assert room(count=most + 1, spacing_deg=spacing) is not None
+
+
+def test_a_mill_is_told_to_leave_corners_of_windows_and_bores() -> None:
+    """Told of fillets alone: a square bore or a window of smaller corners came out with material in them."""
+    spokes = {"count": 4, "inner_diameter": 16.0, "outer_diameter": 30.0, "width": 4.0, "corner_radius": 1.0}
+    bore = {"shape": "square", "across_flats": 6.0, "corner_radius": 0.5}
+    scene = {"parts": {"p": {**SPUR, "number_of_teeth": 30, "spokes": spokes, "bore": bore}}}
+    part = make_parts(scene_from_dict(scene, "s", "s"), "s")[0]["p"]
+    for offset, corners in ((0.4, []), (0.6, [0.5]), (1.2, [1.0, 0.5])):
+        told = [f for f in part.section(offset).findings if f.code.startswith("corners_of_")]
+        assert [(f.value, f.limit) for f in told] == [(offset, radius) for radius in corners]

@@ -388,6 +388,13 @@ def test_a_board_has_room_and_parts_that_are_there(key: str, value: Any, code: s
         assert refused(with_key(BOARD, key, value - 1e-3)) is None
 
 
+def test_a_speed_of_engraving_needs_that_of_the_cut() -> None:
+    refusal = refused(with_key(BOARD, "boards.b.engraving_feed", 90.0))
+    assert refusal is not None
+    assert (refusal.key, refusal.code, refusal.numbers) == ("boards.b.engraving_feed", "needs_other", {"other": "feed"})
+    assert refused(with_key(with_key(BOARD, "boards.b.feed", 9.0), "boards.b.engraving_feed", 90.0)) is None
+
+
 def test_the_phases_to_start_from_are_a_turn() -> None:
     assert sum(phase["angle_deg"] for phase in PHASES) == 360.0
     assert refused(scene_of(ROLLER)) is None
