@@ -56,9 +56,9 @@ def _show_rich(title: str, header: Sequence[str], rows: list[list[str]]) -> None
     from rich.table import Table
 
     table = Table(title=escape(_printable(title)), title_justify="left")
-    table.add_column(header[0], overflow="fold")
-    for name in header[1:]:
-        table.add_column(name, justify="right")
+    for column, name in enumerate(header):
+        # on a narrow terminal no digit is left out
+        table.add_column(name, justify="right" if column else "left", overflow="fold")
     for row in rows:
         table.add_row(*map(escape, row))
     Console(highlight=False, emoji=False).print(table)

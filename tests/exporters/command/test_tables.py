@@ -134,3 +134,11 @@ def test_a_drawn_table_has_words_as_they_are(
     assert [word in plain for word in (":gear: [red]", ":key:", "[bold]12")] == [True] * 3
     # a number of a row has no colour of its own
     assert not re.search(r"\x1b\[[\d;]*m12", shown)
+
+
+def test_a_narrow_terminal_has_every_digit(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "24")
+    _show_rich("", ["file", "error, mm", "kB"], [["wheel.step", "9.76e-07 (certified)", "8306.2"]])
+    cells = [re.split("[│┃]", line)[1:4] for line in capsys.readouterr().out.splitlines() if line[:1] in "│┃"]
+    told = ["".join(column).replace(" ", "") for column in zip(*cells, strict=True)]
+    assert told == ["filewheel.step", "error,mm9.76e-07(certified)", "kB8306.2"]

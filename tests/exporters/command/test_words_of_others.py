@@ -115,6 +115,11 @@ def test_what_slicers_call_an_offset_leads_to_it(tmp_path: Path, capsys: pytest.
     assert "did you mean offset?" in capsys.readouterr().err
 
 
+def test_the_driven_one_of_a_pair_is_the_mate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    gear = {"kind": "noncircular_gear", "module": 2.0, "number_of_teeth": 30, "centrode": "oval", "axis_ratio": 1.4}
+    assert told(tmp_path, capsys, gear | {"role": "driven"}).endswith("did you mean mate?\n")
+
+
 _TOOTHED = _SPUR | {"module": 2.0}
 
 
