@@ -27,6 +27,9 @@ from geometry.cams.barrel.cam import AxialGuide, BarrelCam
 from geometry.curves.curve import Real
 from geometry.laws.piece import LawPiece
 
+# how often the bounds of the contact's place and of w sharpen each other
+_ROUNDS = 4
+
 
 def edge_bounds(cam: BarrelCam, piece: LawPiece, radius: float, order: int, a: Real, b: Real) -> tuple[Series, Series]:
     """Bounds of the Taylor coefficients of polar angle (rad, from order 1 on) and height (mm) of an edge on [a, b].
@@ -39,11 +42,15 @@ def edge_bounds(cam: BarrelCam, piece: LawPiece, radius: float, order: int, a: R
     most = float(np.max(np.abs(cam.radius_at([0.0, radius]))))
     reach = aside[0] + most
     with np.errstate(all="ignore"):
-        shortest = np.sqrt(radius**2 - reach**2)
-        level = rise * shortest + taper * (cam.radius - taper * cam.reference) - aside[1]
-        # w is as high as p' is steep: without it steep grooves have bounds of no use
-        least = np.where(level > 0, np.hypot(level, steady), level)
-        lean = taper * aside[0] / least
+        for _ in range(_ROUNDS):
+            shortest = np.sqrt(radius**2 - reach**2)
+            level = rise * shortest + taper * (cam.radius - taper * cam.reference) - aside[1]
+            # w is as high as p' is steep: without it steep grooves have bounds of no use
+            least = np.where(level > 0, np.hypot(level, steady), level)
+            lean = taper * aside[0] / least
+            # the normal leans across the axis by no more than w does along it
+            across = np.where(level > 0, rate[0] / least + lean, 1.0)
+            reach = np.minimum(reach, aside[0] + most * across)
         # of the equation in rho: 2 rho + 2 y dy/d rho
         turn = rise * rate[0] / least**2 + lean * rise / least / np.sqrt(1 - lean**2)
         slope = 2 * (shortest - reach * (taper + most * turn))

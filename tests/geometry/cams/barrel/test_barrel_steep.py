@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from geometry.approximation.chords import approximate_profile
+from geometry.approximation.splines import fit_spline
 from geometry.base.record import replace
 from geometry.cams.barrel.bounds import edge_bounds
 from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, SwingGuide
@@ -20,6 +21,9 @@ STEEP = BarrelCam(motion(600.0), AxialGuide(10.0), 2.5, 35.0, 27.0)
 TALL = BarrelCam(motion(20_000.0), AxialGuide(10.0), 0.05, 35.0, 27.0)
 CONE = replace(STEEP, taper=2.5 / 35.0, reference=35.0)
 ARM = BarrelCam(motion(1.0), SwingGuide(240.0, 130.0, 250.0, -0.5), 2.0, 60.0, 50.0)
+# grooves four fifths as wide as the barrel
+WIDE = BarrelCam(motion(7.0), AxialGuide(10.0), 6.0, 7.5, 7.45)
+BLUNT = replace(WIDE, taper=0.05, reference=7.5)
 CAMS = {"steep": STEEP, "tall": TALL, "cone": CONE, "arm": ARM}
 
 
@@ -72,3 +76,19 @@ def test_a_steep_groove_takes_few_arcs_and_is_proven() -> None:
     assert made.bound == "certified"
     assert made.max_error <= 0.01
     assert len(made.geometry.bulges) < 120
+
+
+def test_a_groove_nearly_as_wide_as_its_barrel_is_drawn() -> None:
+    """Bounds that took the contact to lie wherever the roller is were 10^5 times too large: no tolerance was kept."""
+    for cam in (WIDE, BLUNT):
+        for piece in cam.motion.moving_pieces():
+            edge = DevelopedEdge(cam, piece, LOWER, 0.0, *piece.domain)
+            inside = edge.derivatives(np.linspace(*piece.domain, 60), 2)
+            cuts = np.linspace(*piece.domain, 60)
+            for order in (1, 2):
+                most = np.maximum(np.abs(inside[order][1:]), np.abs(inside[order][:-1]))
+                bounds = edge.derivative_bounds(cuts, (order,))[0]
+                assert np.all(bounds >= most)
+                assert bounds.max() < 100 * most.max()
+    part = replace(DevelopedEdge(WIDE, piece, LOWER, 0.0, *piece.domain), end=piece.start + 0.5)
+    assert fit_spline(part, 4.8e-7, degree=3, continuity=2).bound == "certified"
