@@ -64,7 +64,7 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             told = {"part": name, "why": filled(reason(error.code), **error.numbers)}
             raise ParameterError(error.name, error.value, "drawing_of_part", error.nearest, **told) from error
     for key in RUNOUTS:
-        if (size := getattr(wishes, key)) is not None and key not in runs:
+        if wanted.is_whole and (size := getattr(wishes, key)) is not None and key not in runs:
             raise wanted.refused(f"drawing.{key}", size, "no_runout_here")
     return found
 

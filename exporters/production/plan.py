@@ -173,7 +173,7 @@ class _Planning:
             self.left_out.append(LeftOut(where, why))
             self._of_several.append(export.format)
             return
-        asked = Request(self.scene, self.placing, self.parts, export, where, self.source)
+        asked = Request(self.scene, self.placing, self.parts, export, where, self.source, not self.only_parts)
         if on_sheet(export.format, export.purpose):
             self._draw(asked)
         elif export.is_laid:

@@ -22,7 +22,10 @@ _SHARE = 8e-4
 
 
 class Request(Record):
-    """An export, ``where`` the scene from ``source`` asks for it, and the scene's parts as they are made and placed."""
+    """An export, ``where`` the scene from ``source`` asks for it, and the scene's parts as they are made and placed.
+
+    ``is_whole``: the command has left none of the parts out that the scene wants.
+    """
 
     scene: SceneFile
     placing: Placing
@@ -30,6 +33,7 @@ class Request(Record):
     export: ExportSpec
     where: str
     source: str
+    is_whole: bool = True
 
     @property
     def wanted(self) -> list[str]:

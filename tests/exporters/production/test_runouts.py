@@ -10,7 +10,9 @@ from typing import Any
 import ezdxf
 import pytest
 
+from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
+from parts.scene.load import scene_from_dict
 from tests.exporters.production.test_part_drawings import KEYED, PARTS, jobs, written
 from tests.exporters.production.test_sheet_words import faults
 
@@ -165,6 +167,17 @@ def test_a_runout_that_nothing_drawn_has_is_refused_by_its_key(name: str, key: s
     assert caught.value.key == f"exports[1].drawing.{key}"
     with pytest.raises(SceneError):
         jobs(PARTS["gear"], drawing={key: 0.0})
+
+
+def test_a_part_built_alone_keeps_what_the_scene_wishes_for_others() -> None:
+    """A frame that a gear of the scene has is no fault of its rack, which the command asks for alone."""
+    parts = {"gear": PARTS["gear"], "rack": PARTS["rack"]}
+    export = {"format": "svg", "purpose": "part", "drawing": {"tip_runout": 0.05}}
+    scene = scene_from_dict({"parts": parts, "exports": [export]}, "s", "s")
+    for only in (["rack"], ["gear"], []):
+        assert [job.path for job in plan_build(scene, "s", only, []).files] == [
+            f"{name}.part.svg" for name in only or parts
+        ]
 
 
 def test_a_tolerance_stands_as_it_is_given_and_is_not_rounded_up(tmp_path: Path) -> None:
