@@ -22,7 +22,7 @@ TALL = BarrelCam(motion(20_000.0), AxialGuide(10.0), 0.05, 35.0, 27.0)
 CONE = replace(STEEP, taper=2.5 / 35.0, reference=35.0)
 ARM = BarrelCam(motion(1.0), SwingGuide(240.0, 130.0, 250.0, -0.5), 2.0, 60.0, 50.0)
 # grooves four fifths as wide as the barrel
-WIDE = BarrelCam(motion(7.0), AxialGuide(10.0), 6.0, 7.5, 7.45)
+WIDE = BarrelCam(motion(5.0), AxialGuide(10.0), 6.0, 7.5, 7.45)
 BLUNT = replace(WIDE, taper=0.05, reference=7.5)
 CAMS = {"steep": STEEP, "tall": TALL, "cone": CONE, "arm": ARM}
 
