@@ -104,11 +104,11 @@ class Part(Record, dict=True):
         return "; ".join(filter(None, told))
 
     def called(self, instance: str) -> str:
-        """What people call an instance of it: its title, and its number or its whole id beside it."""
+        """What people call an instance of it: its title, and its number or, in brackets, its whole id beside it."""
         if self.title is None or instance == self.id:
             return self.title or instance
         number = instance.removeprefix(f"{self.id}_")
-        return f"{self.title} {number if number.isdigit() else instance}"
+        return f"{self.title} {number}" if number.isdigit() else f"{self.title} ({instance})"
 
     @property
     def name(self) -> str:

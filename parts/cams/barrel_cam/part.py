@@ -27,7 +27,7 @@ from parts.cams.barrel_cam.roller import (
     taper,
     thinnest,
 )
-from parts.cams.disk_cam.part import impact_findings
+from parts.cams.disk_cam.part import motion_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
 from parts.keys.base import check_idle, in_vain
 from parts.keys.cam import (
@@ -315,7 +315,7 @@ def _findings(keys: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
     from geometry.cams.motion.follower_motion import PhaseKind
 
     swings = keys.oscillating is not None
-    found = impact_findings(cam.motion, swings=swings)
+    found = motion_findings(cam.motion, swings=swings)
     usual = USUAL_PRESSURE_ANGLE[swings]
     # a groove pushes both ways, a spring takes the return of an end cam
     kinds = (PhaseKind.RISE, PhaseKind.RETURN) if cam.is_groove else (PhaseKind.RISE,)

@@ -24,8 +24,8 @@ from parts.cams.disk_cam.part import (
     cam_circles,
     check_face,
     idle_plate,
-    impact_findings,
     largest_roller_radius,
+    motion_findings,
     pressure_angles,
     undercut,
 )
@@ -249,7 +249,7 @@ def linkage_findings(keys: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ..
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
 
-    found = impact_findings(cam.motion, swings=cam.swings)
+    found = motion_findings(cam.motion, swings=cam.swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     found += steep(steepest, _USUAL_PRESSURE_ANGLE)
     transmission = math.degrees(cam.mount.linkage.transmission_angle())

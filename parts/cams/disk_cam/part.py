@@ -123,6 +123,10 @@ EVEN_CAM: dict[str, object] = {
 }  # fmt: skip
 
 
+# lifts beyond all rows that are told, part of the lift
+_TOLD_OVERSHOOT = 1e-3
+
+
 class FacedKeys(Protocol):
     """Keys of a cam whose follower may have a plate."""
 
@@ -467,7 +471,24 @@ def pressure_angles(cam: DiskCam) -> dict[str, float]:
     }
 
 
-def impact_findings(motion: FollowerMotion, *, swings: bool) -> list[Finding]:
+def motion_findings(motion: FollowerMotion, *, swings: bool) -> list[Finding]:
+    """What a motion does that its phases or rows do not tell: impacts, and lifts beyond all of them."""
+    return [*_impacts(motion, swings=swings), *_overshoot(motion, swings=swings)]
+
+
+def _overshoot(motion: FollowerMotion, *, swings: bool) -> Iterator[Finding]:
+    """How far the motion goes beyond all ends of its pieces, in mm or degrees, and where, degrees."""
+    ends = [float(piece.value(piece.start, 0)) for piece in motion.pieces]
+    middle = (max(ends) + min(ends)) / 2
+    places = [float(at) for piece in motion.pieces for at in piece.extremes(0)]
+    far = max(places, key=lambda at: abs(float(motion.value(at)) - middle))
+    beyond = abs(float(motion.value(far)) - middle) - (max(ends) - middle)
+    if beyond > _TOLD_OVERSHOOT * motion.lift:
+        unit, code = (math.degrees(1.0), "swing_overshoots") if swings else (1.0, "lift_overshoots")
+        yield Finding(code, beyond * unit, math.degrees(far))
+
+
+def _impacts(motion: FollowerMotion, *, swings: bool) -> list[Finding]:
     """The greatest rigid and the greatest soft impact of a motion, in mm or degrees, with its cam angle, degrees."""
     code, unit = ("swung_{}_impact", math.degrees(1.0)) if swings else ("{}_impact", 1.0)
     found = []
@@ -510,7 +531,7 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     if all(piece.is_constant for piece in cam.motion.pieces):
         found.append(Finding("never_moves", 0.0, spec.lift or spec.swing_deg))
     swings = spec.oscillating is not None
-    found += impact_findings(cam.motion, swings=swings)
+    found += motion_findings(cam.motion, swings=swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     found += steep(steepest, USUAL_PRESSURE_ANGLE[swings])
     back = math.degrees(greatest_pressure_angle(cam, PhaseKind.RETURN).value)

@@ -26,8 +26,8 @@ from parts.cams.disk_cam.part import (
     cam_circles,
     cam_of,
     cam_quantities,
-    impact_findings,
     larger_bases,
+    motion_findings,
     not_kept,
 )
 from parts.cams.wheel import DiskKeys, check_disk, inner_radius
@@ -230,7 +230,7 @@ def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle
 
-    found = impact_findings(disk.cam.motion, swings=disk.cam.swings)
+    found = motion_findings(disk.cam.motion, swings=disk.cam.swings)
     # a groove drives both ways: the limit holds for the return too
     usual = USUAL_PRESSURE_ANGLE[spec.oscillating is not None]
     for kind, code, way in (

@@ -15,7 +15,7 @@ from exporters.production.check_lines import names_of
 from parts.base.part import Part
 from parts.base.registry import KINDS
 from parts.base.texts import told_in
-from parts.scene.load import load_scene, make_parts
+from parts.scene.load import load_scene, make_parts, scene_from_toml
 
 SCENE = """
 [parts.pinion]
@@ -322,3 +322,11 @@ def test_an_assembly_has_another_name_than_its_parts(tmp_path: Path) -> None:
     assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
     assert main(["verify", str(tmp_path / "Pin" / "Pin.step")]) == 0
     assert read_step_assembly(tmp_path / "Pin" / "Pin.step").title == "Pin.assembly"
+
+
+def test_an_instance_of_a_name_of_its_own_is_called_by_both() -> None:
+    """«Вісь vis2» read as if all of it were the title: what the scene calls it stands in brackets."""
+    text = '[parts.vis]\nkind = "pin"\ndiameter = 5.0\nlength = 20.0\ntitle = "Вісь"\n'
+    text += '[instances.vis_1]\npart = "vis"\n[instances.vis2]\npart = "vis"\nat = [20.0, 0.0, 0.0]\n'
+    made = scene_from_toml(text.encode(), "s", "s")
+    assert names_of(made.instances, make_parts(made, "s")[0]) == {"vis_1": "Вісь 1", "vis2": "Вісь (vis2)"}

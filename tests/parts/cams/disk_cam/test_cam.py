@@ -201,6 +201,37 @@ def test_own_diagrams_and_tables() -> None:
     assert cam_of(read).motion.lift == pytest.approx(20, rel=1e-4)
 
 
+def highest(rows: list[tuple[float, float]]) -> tuple[float, float]:
+    """Where the periodic cubic spline through rows is highest, by its moments and the roots of its slope; degrees."""
+    at, s = np.transpose([*rows, (360.0, rows[0][1])])
+    h, n = np.diff(at), len(rows)
+    system, rise = np.zeros((n, n)), np.diff(s) / h
+    for i in range(n):
+        system[i, i] = 2 * (h[i - 1] + h[i])
+        system[i, i - 1] += h[i - 1]
+        system[i, (i + 1) % n] += h[i]
+    moments = np.linalg.solve(system, 6 * (rise - np.roll(rise, 1)))
+    found = []
+    for i in range(n):
+        one, two = moments[i], moments[(i + 1) % n]
+        cubic = np.poly1d([(two - one) / 6 / h[i], one / 2, rise[i] - h[i] * (2 * one + two) / 6, s[i]])
+        found += [(float(cubic(x)), at[i] + x) for x in np.real(cubic.deriv().roots) if 0 <= x <= h[i]]
+    return max(found)
+
+
+@pytest.mark.parametrize("follower", ["roller", "oscillating roller"])
+def test_a_table_that_is_left_between_its_rows_is_told(follower: str) -> None:
+    """A spline through a dwell goes beyond it: nobody said how far."""
+    dwell = [(0.0, 0.0), (90.0, 10.0), (120.0, 10.0), (180.0, 10.0), (270.0, 0.0), (320.0, 0.0)]
+    smooth = [(30.0 * k, 5 - 5 * math.cos(math.radians(30 * k))) for k in range(12)]
+    own = {k: v for k, v in CAMS[follower].items() if k not in ("phases", "lift", "swing_deg")}
+    top, place = highest(dwell)
+    for table, wanted in ((dwell, [(top - 10, place)]), (smooth, [])):
+        found = [f for f in part_of(own | {"motion_table": [list(row) for row in table]}).findings
+                 if f.code in ("lift_overshoots", "swing_overshoots")]  # fmt: skip
+        assert [(f.value, f.limit) for f in found] == [pytest.approx(told, rel=1e-6) for told in wanted]
+
+
 def test_a_chamfered_hub_and_keyway() -> None:
     keys = ROLLER | {"bore_diameter": 0.0, "bore": {"shape": "keyway", "diameter": 16.0}, "face_chamfer": 0.5,
                      "hub": {"diameter": 34.0, "above": 6.0}}  # fmt: skip
