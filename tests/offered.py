@@ -13,8 +13,8 @@ from typing import Any, get_args
 import msgspec
 
 from exporters.command.new import new_scene
+from parts.base.fields import fields_of
 from parts.base.registry import KINDS
-from parts.base.schema import fields_of
 from parts.mates.registry import MATES
 from parts.scene.files import built_in_scenes
 

@@ -21,13 +21,13 @@ from msgspec.structs import FieldInfo
 
 from exporters.command.asked import DONE, check_language, language_of_command, show_page
 from geometry.base.errors import Nearest
+from parts.base.fields import fields_of
 from parts.base.refusal import SceneError, Typed, meant
 from parts.base.registry import KINDS
 from parts.base.schema import (
     as_toml,
     described,
     example_of,
-    fields_of,
     is_open,
     marks_of,
     own_first,

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, Text, Words, words
@@ -178,7 +180,9 @@ def _json(sheet: Sheet, told: Words) -> str:
     again = {name: _each(found, list) for name, found in every.items() if _repeats(found)}
     data = {"topic": sheet.topic, "values": values, "repeated": again, "steps": steps, "notes": notes, **sheet.data}
     data |= {table.name: table_data(table) for table in sheet.tables}
-    return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+    # with an indent json leaves its encoder in C for one in Python
+    plain = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    return msgspec.json.format(plain, indent=1) + "\n"
 
 
 def _csv(sheet: Sheet, told: Words) -> str:

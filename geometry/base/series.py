@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from operator import mul
+from functools import reduce
+from operator import add, mul
 from typing import Any
 
 import numpy as np
@@ -21,12 +22,17 @@ About = tuple[Series, Any]
 
 def taylor(derivatives: Sequence[Any]) -> Series:
     """Coefficients of a function from its value and derivatives; bounds of the ones from bounds of the others."""
-    return [x / FACTORIALS[k] for k, x in enumerate(derivatives)]
+    return [x if k < 2 else x / FACTORIALS[k] for k, x in enumerate(derivatives)]
 
 
 def product(a: Sequence[Any], b: Sequence[Any]) -> Series:
     """Coefficients of a product, as many as the shorter factor has."""
-    return [sum(map(mul, a[: k + 1], b[k::-1])) for k in range(min(len(a), len(b)))]
+    return [_dot(a[: k + 1], b[k::-1]) for k in range(min(len(a), len(b)))]
+
+
+def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """a[0] b[0] + a[1] b[1] ...: ``sum`` begins with a nought, which of long arrays is as much work as a term."""
+    return reduce(add, map(mul, a, b))
 
 
 def conjugate(a: Sequence[Any]) -> Series:
@@ -65,7 +71,7 @@ def exponential(a: Sequence[Any]) -> Series:
     """Coefficients of exp(a), from y' = a' y."""
     y, slopes = [np.exp(a[0])], derived(a)
     for k in range(1, len(a)):
-        y.append(sum(map(mul, slopes[:k], y[::-1])) / k)
+        y.append(_dot(slopes[:k], y[::-1]) / k)
     return y
 
 

@@ -45,6 +45,12 @@ class Involute(Curve, Record):
         factor = 1j ** (order - 1) * f + (order - 1) * 1j ** (order - 2)
         return self.base_radius * np.exp(1j * (self.base_angle + f)) * factor
 
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        f = np.asarray(t, dtype=float)
+        spoke = self.base_radius * np.exp(1j * (self.base_angle + f))
+        factors = [1j ** (k - 1) * f + (k - 1) * 1j ** (k - 2) for k in range(1, order + 1)]
+        return [self.centre + spoke * (1 - 1j * f), *(spoke * factor for factor in factors)]
+
     def tangent(self, t: ArrayLike) -> Complex:
         return self._sense * np.exp(1j * (self.base_angle + np.asarray(t, dtype=float)))
 

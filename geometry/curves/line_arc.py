@@ -91,6 +91,10 @@ class Arc(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return (1j * self._sense) ** order * self._spoke(t)
 
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        spoke = self._spoke(t)
+        return [self.centre + spoke, *((1j * self._sense) ** k * spoke for k in range(1, order + 1))]
+
     def tangent(self, t: ArrayLike) -> Complex:
         return 1j * self._sense * self._spoke(t) / self.radius
 

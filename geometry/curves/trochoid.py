@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
 from types import ModuleType
@@ -52,17 +53,20 @@ class RackFillet(Fillet):
 
     def speed(self, t: ArrayLike) -> Real:
         """de/du along the tangent, mm/rad; negative where the curve runs back."""
-        return self._moving(np.asarray(t, dtype=float))[1]
+        return np.asarray(self._moving(np.asarray(t, dtype=float))[1])
 
     def tangent(self, t: ArrayLike) -> Complex:
+        if isinstance(t, float):
+            way, rate = self._moving(t, math, cmath.exp)
+            return np.complex128(-way if rate < 0 else way)
         direction, speed = self._moving(np.asarray(t, dtype=float))
         return np.where(speed < 0, -direction, direction)
 
-    def _moving(self, u: Real) -> tuple[Complex, Real]:
+    def _moving(self, u: Any, lib: ModuleType = np, exp: Callable[[Any], Any] = np.exp) -> tuple[Any, Any]:
         """Direction of growing u where the speed is positive, and the speed."""
-        shift, normal, rate, bend = self._rolled(u)
-        direction = 1j * np.exp(1j * (self.angle - shift / self.pitch_radius - u))
-        return direction, np.asarray(rate / self.pitch_radius * normal + bend)
+        shift, normal, rate, bend = self._rolled(u, lib)
+        direction = 1j * exp(1j * (self.angle - shift / self.pitch_radius - u))
+        return direction, rate / self.pitch_radius * normal + bend
 
     def turning(self, t: ArrayLike) -> Real:
         """1 + s'/r: how fast the tangent turns to the right, rad/rad."""

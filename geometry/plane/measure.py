@@ -404,7 +404,8 @@ def _feet(points: Complex, group: _Alike, which: NDArrayInt, start: NDArrayInt, 
         with np.errstate(divide="ignore", invalid="ignore"):
             step = (np.conj(gap) * first).real / np.where(slope > 0, slope, square)
         # in a cusp at an end, where an involute begins, every point would have its foot: half a sample inwards
-        step = np.where(square > 0, step, np.where(at > (low + high) / 2, reach / 2, -reach / 2))
+        if not square.all():
+            step = np.where(square > 0, step, np.where(at > (low + high) / 2, reach / 2, -reach / 2))
         # what ``np.clip`` does, at half the cost
         following = np.minimum(np.maximum(at - np.minimum(np.maximum(step, -reach), reach), low), high)
         # a foot that all but stays, or goes to and fro by a rounding, is where all steps bring it, or one before

@@ -7,9 +7,9 @@ from collections.abc import Collection
 from typing import NamedTuple
 
 from msgspec import Struct
-from msgspec.structs import fields
 
 from geometry.base.errors import TOLD, Curable, Cure, Nearest, ParameterError, format_value
+from parts.base.fields import defaults_of
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
@@ -234,7 +234,8 @@ def _short(text: str, most: int) -> str:
 def _typed(value: object) -> str:
     """A value as TOML has it on one line."""
     if isinstance(value, Struct):
-        value = {f.name: item for f in fields(value) if (item := getattr(value, f.name)) != f.default}
+        usual = defaults_of(type(value))
+        value = {name: item for name in usual if (item := getattr(value, name)) != usual[name]}
     if isinstance(value, dict):
         return f"{{ {', '.join(f'{key} = {_typed(item)}' for key, item in value.items())} }}"
     return f"[{', '.join(map(_typed, value))}]" if isinstance(value, list) else format_value(value)

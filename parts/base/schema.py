@@ -19,6 +19,7 @@ from geometry.base.errors import Nearest, ParameterError, format_value
 from geometry.base.nearest import nearest
 from geometry.base.tolerance import LEAST_LENGTH
 from parts.base.counted_over import counted_over
+from parts.base.fields import fields_of
 from parts.base.refusal import SYNONYMS, SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
 from parts.base.units import sexagesimal, written_units
@@ -640,12 +641,6 @@ def unit_of(kind: type[Struct], path: str) -> str:
     for name in names[:-1]:
         owners = [s for o in owners if (found := _types_of(o).get(name)) for s in structs_of(found)]
     return _unit(next((found for o in owners if (found := _types_of(o).get(names[-1]))), None))
-
-
-@lru_cache(maxsize=256)
-def fields_of(kind: type[Struct]) -> tuple[msgspec.structs.FieldInfo, ...]:
-    """The keys of a table: msgspec resolves the annotations anew whenever it is asked."""
-    return msgspec.structs.fields(kind)
 
 
 @lru_cache(maxsize=256)

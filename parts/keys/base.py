@@ -10,10 +10,10 @@ from functools import partial
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
-from msgspec.structs import fields
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.tolerance import LEAST_LENGTH
+from parts.base.fields import defaults_of
 from parts.base.part_keys import MaterialKeys
 
 # the largest part, mm
@@ -79,7 +79,8 @@ def either(key: str, value: object, other: str, without: float | None = None) ->
 
 def in_vain(keys: Any, names: Sequence[str], code: str = "needs_other", **told: Any) -> Iterator[ParameterError]:
     """The refusals of those of some keys that are not as by default and do nothing beside the others."""
-    usual = {field.name: field.default for field in fields(keys)}
+    kind: type[Struct] = type(keys)
+    usual = defaults_of(kind)
     for name in names:
         if (value := getattr(keys, name)) != usual[name]:
             shown = None if isinstance(value, Struct) else value

@@ -7,9 +7,10 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from msgspec import Meta, Struct
-from msgspec.structs import fields, replace
+from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError
+from parts.base.fields import defaults_of
 from parts.base.refusal import REMOVED
 from parts.base.schema import described_key
 from parts.keys.base import degrees, mm
@@ -63,8 +64,8 @@ class MechanismTable(Struct, kw_only=True, forbid_unknown_fields=True):
 
 def told(keys: MechanismTable) -> dict[str, Any]:
     """The keys that are not as they are by default."""
-    given = {field.name: (getattr(keys, field.name), field.default) for field in fields(keys)}
-    return {name: value for name, (value, usual) in given.items() if value != usual}
+    usual = defaults_of(type(keys))
+    return {name: value for name in usual if (value := getattr(keys, name)) != usual[name]}
 
 
 def scaled(keys: MechanismTable, scale: float) -> MechanismTable:

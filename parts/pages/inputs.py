@@ -14,8 +14,9 @@ import msgspec
 from msgspec import Struct
 
 from geometry.base.errors import ParameterError, format_value
+from parts.base.fields import fields_of
 from parts.base.refusal import REMOVED, SceneError, explained, meant, placed
-from parts.base.schema import converted, fields_of, unit_of
+from parts.base.schema import converted, unit_of
 from parts.base.texts import Message
 
 K = TypeVar("K", bound=Struct)

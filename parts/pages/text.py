@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 from parts.base.psv import rows_of
 from parts.base.texts import Told, Words
@@ -12,6 +13,7 @@ from parts.pages.terms import TERMS
 SOURCES = [word for (word,) in rows_of(__file__, "sources")]
 
 
+@lru_cache(maxsize=4096)
 def source_text(source: str, words: Words) -> str:
     """A source as printed."""
     for word in SOURCES:

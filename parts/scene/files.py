@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import re
 import tomllib
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ MOST_BYTES = 4_000_000
 _DEEP_KEY = re.compile(r"""(?m)(?:^|[\[{,])[ \t]*(?:(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*){50}""")
 
 
+@cache
 def built_in_scenes() -> dict[str, Path]:
     """Names and files of the scenes that come with the package."""
     return {path.stem: path for path in sorted(SCENE_FOLDER.glob("*.toml"))}

@@ -9,8 +9,9 @@ from typing import Any
 from msgspec import Struct
 
 from geometry.base.errors import format_value
+from parts.base.fields import fields_of
 from parts.base.refusal import SYNONYMS, SceneError
-from parts.base.schema import either, fields_of, has_key, looked_up, steps_of, structs_of
+from parts.base.schema import either, has_key, looked_up, steps_of, structs_of
 from parts.base.texts import Message, Text, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.scene.defaults import defaults_take

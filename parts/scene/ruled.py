@@ -10,8 +10,9 @@ from typing import Any
 import msgspec
 
 from geometry.base.errors import ParameterError
+from parts.base.fields import fields_of
 from parts.base.refusal import Rulers, SceneError
-from parts.base.schema import converted, fields_of, looked_up, steps_of, tried
+from parts.base.schema import converted, looked_up, steps_of, tried
 from parts.recipes.recipe import Expansion, RecipeKeys
 from parts.recipes.registry import RECIPES
 from parts.scene.language import in_one

@@ -207,6 +207,8 @@ def least_hollow_radius(cam: DiskCam) -> Extreme:
     return Extreme(1 / found.value if found.value > 0 else math.inf, found.angle)
 
 
+# as long as the scene is asked anew for one cam
+@lru_cache(maxsize=16)
 def convex_roller_base_radius(
     motion: FollowerMotion, radius: float, least_curvature_radius: float, *, follower_offset: float = 0.0
 ) -> float:

@@ -12,9 +12,9 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.teeth.helix import Helix
 from parts.base.counted_over import counted_over
+from parts.base.fields import fields_of
 from parts.base.mate import End, MateKeys, Mating
 from parts.base.refusal import SceneError, meant
-from parts.base.schema import fields_of
 from parts.gears.spur_gear.part import RackTable
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle, RackName

@@ -17,8 +17,8 @@ from geometry.gears.strength.materials import GROUPS, Group, Quality
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle
+from parts.base.fields import defaults_of, fields_of
 from parts.base.refusal import REMOVED
-from parts.base.schema import fields_of
 from parts.keys.base import mm, size
 from parts.mates.pages.external import PairKeys
 from parts.mates.pages.internal import InternalKeys
@@ -226,7 +226,7 @@ class Rated(Record, dict=True):
     @property
     def unused(self) -> list[str]:
         """Keys that are given and that the method has not."""
-        usual = {f.name: f.default for f in fields_of(LoadKeys)}
+        usual = defaults_of(LoadKeys)
         without = (name for name, methods in METHODS.items() if self.keys.method not in methods)
         return [name for name in without if getattr(self.keys, name) != usual[name]]
 

@@ -12,9 +12,9 @@ import msgspec
 import numpy as np
 import pytest
 
+from parts.base.fields import fields_of
 from parts.base.refusal import SceneError
 from parts.base.registry import KINDS
-from parts.base.schema import fields_of
 from parts.base.texts import words
 from parts.drawing.working import Subject
 from parts.keys.working import WorkingTable

@@ -1,0 +1,21 @@
+"""The keys of a table of a scene, which msgspec resolves from their annotations anew whenever it is asked."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import FieldInfo, fields
+
+
+@lru_cache(maxsize=256)
+def fields_of(kind: type[Struct]) -> tuple[FieldInfo, ...]:
+    """The keys of a table."""
+    return fields(kind)
+
+
+@lru_cache(maxsize=256)
+def defaults_of(kind: type[Struct]) -> dict[str, Any]:
+    """What each key of a table is by default."""
+    return {field.name: field.default for field in fields_of(kind)}
