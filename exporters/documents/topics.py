@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
-from msgspec.structs import fields
 
 from exporters.documents.render import FORMATS, render
 from exporters.formats.whole import beside, check_free
 from geometry.base.errors import TOLD, Nearest, ParameterError
+from parts.base.fields import fields_of
 from parts.base.offers import MOST_OFFERS
 from parts.base.psv import rows_of
 from parts.base.readback import ReadError
@@ -177,7 +177,7 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
 
 def _value_of_only_key(word: str, topic: str) -> Nearest | None:
     """A number that was typed without its key, where the topic asks for one key alone."""
-    asked, number = [field.name for field in fields(keys_of_topic(topic)[0]) if field.required], number_in(word, "")
+    asked, number = [field.name for field in fields_of(keys_of_topic(topic)[0]) if field.required], number_in(word, "")
     return None if number is None or len(asked) != 1 else Nearest(f"{asked[0]}={number:.12g}", "meant")
 
 
