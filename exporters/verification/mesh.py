@@ -9,7 +9,15 @@ import numpy as np
 from exporters.formats.readback import Loop, ReadMesh
 from exporters.verification.chamfers import chamfer_distances, slice_points
 from exporters.verification.outlines import verify_loops
-from exporters.verification.topology import Triangles, areas, chains, doubled_normals, topology_failures, volume_in
+from exporters.verification.topology import (
+    Triangles,
+    areas,
+    chains,
+    doubled_normals,
+    pieces,
+    topology_failures,
+    volume_in,
+)
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.base.distinct import distinct
 from geometry.curves.curve import Flags, Real
@@ -73,8 +81,10 @@ def _wall_verdicts(mesh: ReadMesh, body: Body, declared: float, tolerance: float
         if not aslant:
             mine &= (low == start) & (high == end)
             if any(a[0] < end and a[1] > start for a in between):
-                # a slice of a screw surface or of a chamfer may stand between the same heights
-                mine[mine] = _stands(mesh, mesh.triangles[mine])
+                # a slice of a screw surface or of a chamfer may stand between the same heights; it has upright edges
+                # where its sections agree, as crowned teeth do in the middle of their tips, but not all round
+                which = pieces(mesh.triangles[mine])
+                mine[mine] = ~np.isin(which, which[~_stands(mesh, mesh.triangles[mine])])
         rest &= ~mine
         yield from _verify_walls(mesh, mesh.triangles[mine], (start, end), body, walls, declared, tolerance)
     for wall in filter(body.is_screw, body.walls):

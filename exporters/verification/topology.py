@@ -68,3 +68,14 @@ def chains(triangles: Triangles, z: Real, level: float) -> list[list[int]]:
     refuse_if(not len(edges), "a wall has no edge at one of its ends")
     refuse_if(len(distinct(edges[:, 0])) < len(edges), "an outline touches itself in a point")
     return closed_chains(dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True)))
+
+
+def pieces(triangles: Triangles) -> Triangles:
+    """A number for each triangle, the same for those that hang together by their corners, (n,)."""
+    used, corners = np.unique(triangles, return_inverse=True)
+    corners = corners.reshape(-1, 3)
+    number = np.arange(len(used))
+    while np.any(np.ptp(number[corners], axis=1)):
+        np.minimum.at(number, corners, number[corners].min(axis=1, keepdims=True))
+        number = number[number]
+    return number[corners[:, 0]]

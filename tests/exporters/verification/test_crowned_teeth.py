@@ -28,6 +28,9 @@ PARTS: dict[str, Keys] = {
     "undercut": GEAR | {"number_of_teeth": 9, "bore_diameter": 4.0, "crowning": 0.03, "tooth_mark": {},
                         "tip_chamfer": 0.1},
     "sector": GEAR | {"sector": {"teeth": 5}, "tip_rounding": 0.15},
+    # a chamfer beyond the middle, and below it crowning so low that one slice is enough: the bore ends there too
+    "thin": {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 8, "profile_shift_coefficient": 0.207,
+             "face_width": 0.3, "bore_diameter": 2.957, "face_chamfer": {"above": 0.21}, "crowning": 0.0001},
 }  # fmt: skip
 EXPORTS: list[Keys] = [{"format": "stl"}, {"format": "step"}, {"format": "svg", "purpose": "part"}]
 
