@@ -85,6 +85,8 @@ _DIMENSION = "DIMENSION"
 _OUTWARD: dict[Side, complex] = {"left": -1.0, "right": 1.0, "above": 1j, "below": -1j}
 # for which the arc of an angle stands where it is asked for room
 _CHORDS = 8
+# mm on paper within which two arcs seem one
+_BESIDE = 1.0
 
 
 class Laid(Record):
@@ -203,6 +205,10 @@ class _Layout:
             scale * piece for (_, c), piece in zip(view.strokes, view.chords, strict=True) if isinstance(c, Line)
         )
         self.ink.note({"edge": [Line(complex(piece[0, 0]), complex(piece[1, 0])) for piece in straight]})
+        self.circles = [
+            Arc(scale * c.centre, scale * c.radius, c.start_angle, c.sweep)
+            for _, c in view.strokes if isinstance(c, Arc)
+        ]  # fmt: skip
         self.body = self.extent()
         for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):
             self._stroke("HATCH", loop)
@@ -228,7 +234,9 @@ class _Layout:
                 case Slant():
                     self._put(one, self._slants(one))
                 case Angle():
-                    self._put(one, self._angles(one))
+                    # a contour is no dimension line (GOST 2.307)
+                    free = (place for place in self._angles(one) if not self._lies_on_circle(place))
+                    self._put(one, free, self._angles(one))
                 case Round():
                     self._put(one, self._radii(one) if one.is_radius else self._diameters(one))
                 case Note():
@@ -489,6 +497,12 @@ class _Layout:
             }  # fmt: skip
             cost, told = (radius + far) / _STEP + _OTHER * (not within), (points, at + arc.radius * middle, 0.0)
             yield _Place(lines, arrows, text, cost, told, arc=arc)
+
+    def _lies_on_circle(self, place: _Place) -> bool:
+        """Whether the arc of an angle lies on one of the view, or so near it that both seem one."""
+        arc = place.arc
+        assert arc is not None
+        return any(abs(one.centre - arc.centre) + abs(one.radius - arc.radius) < _BESIDE for one in self.circles)
 
     def _radii(self, one: Round) -> Iterator[_Place]:
         """Where a radius may stand, on a leader whose shelf carries the words: to each arc, from both of its sides."""

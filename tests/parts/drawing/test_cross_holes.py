@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from geometry.curves.line_arc import Arc, Line
+from parts.drawing.dimensioning import laid
 from parts.drawing.working import HIDDEN, VISIBLE, View
 from tests.parts.drawing.test_sections import drawing_of
 
@@ -114,3 +115,15 @@ def test_holes_hidden_in_the_hub_stand_at_their_angles() -> None:
             ends = {complex(round((c / way).real, 9), round((c / way).imag, 9)) for line in hidden
                     for c in (line.start, line.end)}  # fmt: skip
             assert {complex(round(math.sqrt(r**2 - HALF**2), 9), side) for r in (6, 12)} <= ends
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.5, 2.0])
+def test_the_arc_of_an_angle_lies_on_no_circle_of_the_part(scale: float) -> None:
+    """GOST 2.307: a contour is no dimension line. Circles of 12, 24 and 64 mm lay where arcs stand by default."""
+    face = views_of(angle_deg=20.0, spacing_deg=140.0, count=2)[1]
+    made = laid(face, scale, "en")
+    assert made is not None
+    arcs = [s.curve for s in made.canvas.strokes if s.layer == "DIMENSION" and isinstance(s.curve, Arc)]
+    circles = [scale * c.radius for c in drawn(face, Arc) if abs(c.centre) < 1e-9]
+    assert len(arcs) == 2
+    assert min(abs(arc.radius - radius) for arc in arcs for radius in circles) > 0.9
