@@ -13,7 +13,7 @@ from parts.base.fields import defaults_of
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
-from parts.base.texts import ENGLISH, Message, Text, counted, filled, listed, message, standard_told, words
+from parts.base.texts import ENGLISH, Message, Text, counted, english_of, filled, listed, message, standard_told, words
 
 
 class Rulers(NamedTuple):
@@ -77,12 +77,19 @@ SYNONYMS = {word: ours.split(", ") for word, ours in rows_of(__file__, "synonyms
 
 
 def meant(word: object, known: Collection[str]) -> Nearest | None:
-    """The known word that was probably meant, or nothing."""
-    import difflib
-
+    """The known word that was probably meant, or nothing; of other letters than Latin ones by what translates to it."""
     if word is None:
         return None
-    word = in_latin(str(word))
+    latin = in_latin(str(word))
+    told = [] if latin.isascii() else english_of(str(word), _FEW)
+    found = next(filter(None, (_sure(_plain(one), known) for one in told)), None)
+    return found or _sure(latin, known) or _likest(latin, known)
+
+
+def _sure(word: str, known: Collection[str]) -> Nearest | None:
+    """The known word that is the same, or means the same, but for a slip of the fingers."""
+    import difflib
+
     plain = _plain(word)
     # capitals, blanks and hyphens aside; what no letter leads to; letters in another order, a slip of the fingers
     match = [name for name in known if _plain(name) == plain][:1]
@@ -90,8 +97,14 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
     match = match or [name for name in known if sorted(name) == sorted(plain)][:1]
     near = [name for name in known if len(plain) > 2 and (plain not in SYNONYMS or _plain(name).startswith(plain))]
     match = match or difflib.get_close_matches(word, near, 1, _SURE)
-    if match:
-        return Nearest(match[0], "meant")
+    return Nearest(match[0], "meant") if match else None
+
+
+def _likest(word: str, known: Collection[str]) -> Nearest | None:
+    """The known word that has most of its letters, or the only one that has all of it as one of its own."""
+    import difflib
+
+    plain = _plain(word)
     # names that have the whole word; else others begin as it does, or have one of its words
     near = [name for name in known if plain and f"_{plain}_" in f"_{_plain(name)}_"]
     alone = near if len(near) == 1 else []

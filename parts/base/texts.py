@@ -239,6 +239,30 @@ def words(language: str) -> Words:
 
 
 @cache
+def english_of(word: str, most: int) -> list[str]:
+    """So many texts in English whose translation in some language is a word, begins with it or has it, likest first.
+
+    Behind them what those begin with whose translation begins so: the chamfer of the tips, a chamfer.
+    """
+    wanted, found = _letters(word), set[tuple[int, int, str]]()
+    for language in languages():
+        # gettext tells translations of a text alone: of all of them its own table
+        table: dict[object, str] = getattr(words(language).catalogue, "_catalog", {})
+        for msgid, told in table.items():
+            if isinstance(msgid, str) and wanted in (own := _letters(told)) and f" {wanted} " in f" {own} ":
+                rank = 0 if own == wanted else 1 if own.startswith(wanted) else 2
+                found.add((rank, len(own), re.split("[,:;(=]", msgid.rpartition("\x04")[2])[0].strip()))
+    likest = sorted(found)[:most]
+    heads = [re.split(" (?:of|for|in|at) ", msgid)[0] for rank, _, msgid in likest if rank < 2]
+    # a number of teeth is no number
+    return [*(msgid for *_, msgid in likest), *(head for head in heads if head.count(" ") >= wanted.count(" "))]
+
+
+def _letters(told: str) -> str:
+    """Words in small letters, one blank between them, with one form of the apostrophe."""
+    return " ".join(re.findall(r"[^\W_]+(?:'[^\W_]+)*", re.sub("[\u2019\u02bc]", "'", told.lower())))
+
+
 def languages() -> tuple[str, ...]:
     """English, and each language whose folder lies beside the others."""
     return ENGLISH, *sorted(p.name for p in LOCALE.iterdir() if (p / "LC_MESSAGES" / f"{DOMAIN}.mo").is_file())

@@ -164,13 +164,21 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
         from parts.scene.toml_errors import slip, told_toml
 
         if not isinstance(error, RecursionError) and (found := slip(text_of(raw_bytes), str(error))):
-            raise SceneError(source, "", None, found[0], None, **found[1]) from None
+            raise SceneError(source, "", None, found[0], partial(_key_meant, found[1]), **found[1]) from None
         code = "too_deep" if isinstance(error, RecursionError) else "not_toml"
         raise SceneError(source, "", None, code, None, why=told_toml(text_of(raw_bytes), str(error))) from None
     try:
         return scene_from_dict(raw, source, name, language)
     except RecursionError:
         raise SceneError(source, "", None, "too_deep") from None
+
+
+def _key_meant(told: Mapping[str, Any]) -> Nearest | None:
+    """The key of some scene that one in other letters translates to."""
+    from parts.scene.defaults import default_names
+
+    key = str(told.get("key", ""))
+    return None if key.isascii() else meant(key, default_names(ExportSpec))
 
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:

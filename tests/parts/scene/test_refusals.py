@@ -14,7 +14,7 @@ from exporters.command.cli import main
 from exporters.production.build import build
 from exporters.production.plan import plan_build
 from geometry.base.errors import Nearest
-from parts.base.refusal import SceneError, sentence
+from parts.base.refusal import SceneError, meant, sentence
 from parts.scene.files import built_in_scenes
 from parts.scene.language import language_of
 from parts.scene.load import load_scene, scene_from_dict, scene_from_toml
@@ -828,3 +828,32 @@ def test_a_kind_that_is_no_text_is_unknown(kind: object) -> None:
     with pytest.raises(SceneError, match="unknown kind") as refused:
         scene_from_dict({"parts": {"a": {"kind": kind}}}, "t", "t")
     assert refused.value.key == "parts.a.kind"
+
+
+@pytest.mark.parametrize(
+    ("word", "known", "ours"),
+    [
+        ("модуль", ("module", "mode"), "module"),
+        ("кількість_пазів", ("number_of_teeth", "number_of_slots", "face_width"), "number_of_slots"),
+        ("зубців", ("number_of_teeth", "face_width"), "number_of_teeth"),
+        ("ширина вінця", ("width", "face_width"), "face_width"),
+        ("КУТ_НАХИЛУ", ("pressure_angle_deg", "helix_angle_deg"), "helix_angle_deg"),
+        ("бочкоподібність", ("crowning", "module"), "crowning"),
+        ("підйом", ("lift", "phases"), "lift"),
+        ("черв’як", ("worm_wheel", "worm"), "worm"),
+        ("черв'ячне колесо", ("worm", "worm_wheel"), "worm_wheel"),
+        ("шестерня", ("ring_gear", "spur_gear"), "spur_gear"),
+        ("конічне колесо", ("spur_gear", "bevel_gear"), "bevel_gear"),
+        ("абищо", ("spur_gear", "bevel_gear"), None),
+    ],
+)
+def test_words_of_other_languages_lead_to_ours(word: str, known: tuple[str, ...], ours: str | None) -> None:
+    """A student's own word led nowhere: its translation does."""
+    found = meant(word, known)
+    assert (found and found.value) == ours
+
+
+def test_a_key_in_other_letters_is_told_which_it_is() -> None:
+    for typed in ("модуль = 2.0", '"модуль" = 2.0'):
+        told = refusal(scene_text({"module": None}).replace("[parts.gear]", f"[parts.gear]\n{typed}"))
+        assert told.nearest == Nearest("module", "meant")
