@@ -42,6 +42,9 @@ class Curve:
     """
 
     __slots__ = ()
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+    # numbers that may be a column each, of many curves that are asked together
+    columns: ClassVar[tuple[str, ...]] = ()
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -88,12 +91,16 @@ class Curve:
 
     @property
     def alike(self) -> object:
-        """What curves have in common that one formula gives, asked together; None where it stands alone."""
-        return None
+        """What curves that differ in their columns alone have in common; None where each stands alone."""
+        return type(self) if self.columns else None
 
-    def together(self, curves: Sequence[Curve], which: Indices) -> Curve:
-        """A curve that asks, for each parameter, one of ``curves`` alike: no domain is its."""
-        raise NotImplementedError
+    def together(self, curves: Sequence[Curve]) -> Curve:
+        """Curves alike as one of columns, which is asked by ``taken`` only."""
+        return replace(self, **{name: np.array([getattr(c, name) for c in curves]) for name in self.columns})
+
+    def taken(self, which: Indices) -> Curve:
+        """Of curves together, that one which each parameter is asked of."""
+        return replace(self, **{name: getattr(self, name)[which] for name in self.columns})
 
     def joined(self, after: Curve) -> Curve | None:
         """This curve and one that goes on from it, as one; None where they are not of one formula or spline."""
@@ -128,7 +135,6 @@ class Span(Curve):
     """A record with ``start`` and ``end``: the ends of the stretch of its formula that it shows."""
 
     __slots__ = ()
-    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     start: float
     end: float
 
@@ -167,7 +173,6 @@ class Image(Curve):
     """
 
     __slots__ = ()
-    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     base: Curve
     way: ClassVar[int] = -1
     bends: ClassVar[int] = 1
@@ -186,8 +191,11 @@ class Image(Curve):
         own = self.base.alike
         return own and (type(self), own)
 
-    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
-        return replace(self, base=self.base.together([cast("Self", c).base for c in curves], which))
+    def together(self, curves: Sequence[Curve]) -> Self:
+        return replace(self, base=self.base.together([cast("Self", c).base for c in curves]))
+
+    def taken(self, which: Indices) -> Self:
+        return replace(self, base=self.base.taken(which))
 
     def _at(self, t: ArrayLike) -> ArrayLike:
         return t if self.way > 0 else -np.asarray(t, dtype=float)

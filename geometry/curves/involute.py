@@ -27,6 +27,7 @@ class Involute(Curve, Record):
     start_roll: float
     end_roll: float
     centre: complex = 0j
+    columns = "base_radius", "base_angle", "centre"
 
     @property
     def domain(self) -> tuple[float, float]:

@@ -73,6 +73,11 @@ class Arc(Curve, Record):
     radius: float
     start_angle: float
     sweep: float
+    columns = "centre", "radius", "start_angle"
+
+    @property
+    def alike(self) -> object:
+        return Arc, self._sense
 
     @property
     def domain(self) -> tuple[float, float]:
@@ -122,9 +127,12 @@ class Arc(Curve, Record):
 
     def foot(self, points: Complex) -> tuple[Real, NDArray[np.bool_]]:
         """Parameters of the points of the whole circle that are nearest, (n,), rad, and which of them are the arc's."""
-        spoke = points - self.centre
-        swept = np.mod(self._sense * (np.angle(spoke) - self.start_angle), 2 * cmath.pi)
-        return swept, (swept <= abs(self.sweep)) & (spoke != 0)
+        swept = self.swept(points)
+        return swept, (swept <= abs(self.sweep)) & (points != self.centre)
+
+    def swept(self, points: Complex) -> Real:
+        """Parameters of the points of the whole circle that are nearest to points (n,), rad."""
+        return np.mod(self._sense * (np.angle(points - self.centre) - self.start_angle), 2 * cmath.pi)
 
     def mirrored(self) -> Arc:
         return replace(self, centre=self.centre.conjugate(), start_angle=-self.start_angle - self.sweep)

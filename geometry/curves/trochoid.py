@@ -123,6 +123,7 @@ class TrochoidFillet(RackFillet, Record):
     start: float
     end: float
     centre: complex = 0j
+    columns = "pitch_radius", "depth", "tip_radius", "angle", "centre"
 
     def _parts(self, u: Any, secant: Series, tangent: Series, *, bound: bool) -> tuple[Series, Series, Series]:
         depth, rho = (abs(self.depth), abs(self.tip_radius)) if bound else (self.depth, self.tip_radius)

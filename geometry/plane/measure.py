@@ -217,15 +217,14 @@ class _Alike(NamedTuple):
     """Curves that one formula gives, or one alone, with the parameters and places (curves, n) of their samples."""
 
     curves: Sequence[Travelled]
+    # all of them as one, where there are several
+    whole: Curve | None
     parameters: Real
     points: Complex
 
     def of(self, which: NDArrayInt) -> Travelled:
         """The curve that each parameter is asked of."""
-        if len(self.curves) == 1:
-            return self.curves[0]
-        first, *_ = alike = cast("Sequence[Curve]", self.curves)
-        return first.together(alike, which)
+        return self.curves[0] if self.whole is None else self.whole.taken(which)
 
     def every(self, ask: Callable[[Travelled, Real], Complex]) -> Complex:
         """What the curves say at their samples (curves, n)."""
@@ -234,7 +233,11 @@ class _Alike(NamedTuple):
 
 
 def _sampled(curves: Sequence[Travelled], parameters: Real) -> _Alike:
-    group = _Alike(curves, parameters, np.empty(0, dtype=complex))
+    whole = None
+    if len(curves) > 1:
+        first, *_ = alike = cast("Sequence[Curve]", curves)
+        whole = first.together(alike)
+    group = _Alike(curves, whole, parameters, np.empty(0, dtype=complex))
     return group._replace(points=group.every(lambda curve, t: np.asarray(curve.point(t))))
 
 
@@ -375,10 +378,14 @@ def _projected(points: Complex, group: _Alike, which: NDArrayInt, start: NDArray
 
     Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
     """
-    if isinstance(plain := group.curves[0], Arc | Line):
+    if group.whole is None and isinstance(plain := group.curves[0], Arc | Line):
         return distance_to_plain(points, plain)
     curve, last = group.of(which), group.points.shape[1] - 1
     ends = group.points[:, [0, -1]]
+    if isinstance(curve, Arc):
+        inside = curve.swept(points) <= group.parameters[which, -1]
+        radial = np.abs(np.abs(points - curve.centre) - curve.radius)
+        return np.where(inside & (points != curve.centre), radial, np.abs(ends[which] - points[:, None]).min(1))
     found = np.abs(curve.point(_feet(points, group, which, start, newton=newton)) - points)
     # where a curve is shut, the nearest sample is its first and its last one: the foot may lie on either side
     shut = (np.abs(ends[:, 1] - ends[:, 0]) < _SHUT)[which]

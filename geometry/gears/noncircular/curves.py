@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
-from typing import Self, cast
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +18,7 @@ from geometry.base.errors import CuspError
 from geometry.base.record import Record, replace
 from geometry.base.series import FACTORIALS, Series, composed, derived, product
 from geometry.curves.bounds import BoundedSpan
-from geometry.curves.curve import Complex, Curve, Indices, Real, first_turning
+from geometry.curves.curve import Complex, Real, first_turning
 from geometry.gears.noncircular.pitch_line import PitchLine
 
 _SAMPLES, _FAR = 33, 0.05
@@ -105,13 +104,11 @@ class RolledFlank(RolledCurve, Record):
     angle: float
     start: float
     end: float
+    columns = ("crossing",)
 
     @property
     def alike(self) -> object:
         return RolledFlank, self.line, self.angle
-
-    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
-        return replace(self, crossing=np.array([c.crossing for c in cast("Sequence[Self]", curves)])[which])
 
     def _senses(self) -> tuple[float | Real, ...]:
         return (self.angle,)
@@ -171,15 +168,11 @@ class RolledFillet(RolledCurve, Record):
     tip_radius: float | Real
     start: float
     end: float
+    columns = "centre", "tip_radius"
 
     @property
     def alike(self) -> object:
         return RolledFillet, self.line, self.depth
-
-    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
-        own = cast("Sequence[Self]", curves)
-        centre, radius = (np.array(x)[which] for x in ([c.centre for c in own], [c.tip_radius for c in own]))
-        return replace(self, centre=centre, tip_radius=radius)
 
     def _senses(self) -> tuple[float | Real, ...]:
         return self.end - self.start, self.end + self.start
@@ -236,13 +229,11 @@ class RolledLand(RolledCurve, Record):
     height: float | Real
     start: float
     end: float
+    columns = ("height",)
 
     @property
     def alike(self) -> object:
         return RolledLand, self.line
-
-    def together(self, curves: Sequence[Curve], which: Indices) -> Self:
-        return replace(self, height=np.array([c.height for c in cast("Sequence[Self]", curves)])[which])
 
     def _senses(self) -> tuple[float | Real, ...]:
         return (self.height,)
