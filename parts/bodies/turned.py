@@ -498,10 +498,13 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
         if abs(2 * form.outer - step.diameter) > _SAME:
             cure = Nearest(round(2 * form.outer, 9))
             raise ParameterError(f"{name}.diameter", step.diameter, "not_over_spline", cure)
-        for key in ("chamfer", "fillet", "grooves", "keyways", "flats", "thread"):
+        root = form.inner - made.clearance
+        if step.chamfer:
+            code = "chamfer_of_spline"
+            raise ParameterError(f"{name}.chamfer", step.chamfer, code, Nearest(None), root=2 * root)
+        for key in ("fillet", "grooves", "keyways", "flats", "thread"):
             if given := getattr(step, key):
                 raise ParameterError(f"{name}.{key}", given, "beside_spline", Nearest(None))
-        root = form.inner - made.clearance
         if inside >= root:
             key = "bore_diameter" if keys.bore_diameter else "centre_holes.mouth"
             raise ParameterError(key, 2 * inside, "leaves_no_wall", most_of(2 * root, 2 * inside))

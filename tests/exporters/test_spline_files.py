@@ -130,7 +130,7 @@ AROUND: dict[str, Callable[[float], float]] = {
 @pytest.mark.parametrize(
     ("changes", "key", "code", "cure"),
     [({1: {"diameter": 25.0}}, "steps[2].diameter", "not_over_spline", 26.0),
-     ({1: {"chamfer": 1.0}}, "steps[2].chamfer", "beside_spline", None),
+     ({1: {"chamfer": 1.0}}, "steps[2].chamfer", "chamfer_of_spline", None),
      ({0: {"diameter": 24.0}}, "steps[1].diameter", "ends_amid_spline", None),
      # tips of 25 mm beside roots of 23 mm
      ({0: {"diameter": 25.0, "chamfer": 0.0, "spline": {"shape": "spline", "size": "6x21x25"}}}, "steps[1].diameter",
@@ -152,6 +152,20 @@ def test_what_a_splined_step_cannot_have_is_told_as_it_was_typed() -> None:
     steps[1]["keyways"] = [{"at": 3.0, "length": 10.0}]
     with pytest.raises(SceneError, match=re.escape("keyways = [{ at = 3.0, length = 10.0 }]: must be")):
         make_parts(scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": steps}}}, "t", "t"), "t")
+
+
+def test_the_chamfer_of_a_splined_step_goes_where_the_refusal_says() -> None:
+    """Onto a step thinner than the roots, 23 mm; the words name that size."""
+    pilot = {"diameter": 22.9, "length": 2.0, "chamfer": 1.0}
+    toothed = {"diameter": 26.0, "length": 20.0, "spline": {"shape": "spline", "size": "6x23x26"}}
+    with pytest.raises(SceneError, match=re.escape("thinner than its roots, 23 mm")):
+        make_parts(
+            scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": [toothed | {"chamfer": 1.0}]}}}, "t", "t"), "t"
+        )
+    sheet = {"format": "svg", "purpose": "part", "drawing": {"requirements": ["Chamfer of the teeth 1 x 45."]}}
+    told = {"parts": {"a": {"kind": "shaft", "steps": [pilot, toothed]}}, "exports": [sheet]}
+    made, *_ = make_parts(scene_from_dict(told, "t", "t"), "t")
+    assert "a" in made
 
 
 def test_the_shaft_has_the_clearance_that_was_asked_for(built: Path) -> None:
