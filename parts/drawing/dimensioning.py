@@ -85,8 +85,8 @@ _DIMENSION = "DIMENSION"
 _OUTWARD: dict[Side, complex] = {"left": -1.0, "right": 1.0, "above": 1j, "below": -1j}
 # for which the arc of an angle stands where it is asked for room
 _CHORDS = 8
-# mm on paper within which two arcs seem one
-_BESIDE = 1.0
+# mm on paper within which two arcs about one place seem one
+_BESIDE = 2.0
 
 
 class Laid(Record):
