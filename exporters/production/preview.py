@@ -136,13 +136,10 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     chains = [found for mate in plan.placing.mates if (found := mate.rollers()) is not None]
     idlers = [one for mate in plan.placing.mates for one in mate.idlers()]
     # what runs about others may reach beyond them
-    points = np.concatenate(
-        [*outers, *(at + r * _ROUND for row, r in chains for at in row), *(at + r * _ROUND for at, r in idlers)]
-    )
-    left, right = float(points.real.min()), float(points.real.max())
-    low, high = float(points.imag.min()), float(points.imag.max())
-    reach = max(right - left, high - low) / 2
-    middle, shift = reach * 1.08, -complex(left + right, low + high) / 2
+    rounds = [*((at, r) for row, r in chains for at in row), *idlers]
+    low, high = _corners([*outers, *(at + r * _ROUND for at, r in rounds)])
+    reach = max((high - low).real, (high - low).imag) / 2
+    middle, shift = reach * 1.08, -(low + high) / 2
     corner = complex(middle, middle)
     size = reach / 30
     body: list[str] = []
@@ -165,20 +162,18 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], round(x, DRAWN_DECIMALS), round(y, DRAWN_DECIMALS), size))
-    for at, radius in idlers:
-        body.append(_round(at + shift, radius, "fill:#c9ced6", corner, reach))
-        loops.append([(corner + (at + shift + radius * _ROUND).conj()).round(DRAWN_DECIMALS)])
-    for centres, radius in ((row + shift, radius) for row, radius in chains):
-        body += _chain(centres, radius, corner, reach)
-        # no name stands on a roller
-        loops.append([corner.real + at.real + 1j * (corner.imag - at.imag) + radius * _ROUND for at in centres])
+    body += [_round(at + shift, radius, "fill:#c9ced6", corner, reach) for at, radius in idlers]
+    body += [line for row, radius in chains for line in _chain(row + shift, radius, corner, reach)]
+    # no name stands on idlers and rollers
+    loops += [[(corner + (at + shift + r * _ROUND).conj()).round(DRAWN_DECIMALS)] for at, r in idlers]
+    loops += [[corner + (at + shift).conj() + r * _ROUND for at in row] for row, r in chains]
     # a wide scene is drawn wide: what is above and below it is cut off
-    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
+    spare = max(0.0, 2 * (middle - (high - low).imag / 2 - 0.08 * reach))
     seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
-    named = spread_labels(labels, Tops(loops, picture=seen))
-    body += [_leader(one.line, one.size) for one in named if one and one.line]
-    body += [text_line(one.text, one.x, one.y, one.size, "text-anchor:middle;") for one in named if one]
-    written = {one.text for one in named if one}
+    named = [one for one in spread_labels(labels, Tops(loops, picture=seen)) if one]
+    body += [_leader(one.line, one.size) for one in named if one.line]
+    body += [text_line(one.text, one.x, one.y, one.size, "text-anchor:middle;") for one in named]
+    written = {one.text for one in named}
     covered = [label.text for label in labels if label.text not in written]
     rows = _caption_rows(plan.scene, checks, every, covered)
     caption = size * 1.7 * (len(rows) + 1)
@@ -187,6 +182,12 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file
+
+
+def _corners(outlines: Sequence[Complex]) -> tuple[complex, complex]:
+    """Of the upright rectangle about them, the lower left one and the upper right one."""
+    points = np.concatenate(outlines)
+    return complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
 
 
 def _instance(

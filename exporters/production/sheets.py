@@ -412,9 +412,13 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, parts: list[
         Row(word("pitch"), sample="WORKING_PITCH"),
     ]
     # what kinds of gears they are the kind of the picture says
+    section = f" ({word('transverse_section')})" if helix else ""
+    return Facts(f"{word(picture.kind)}{section}: {_both(mating, parts)}", tuple(rows))
+
+
+def _both(mating: Toothed, parts: list[Part]) -> str:
+    """What both parts are called, as the picture counts them: the pinion of a ring first."""
     first, second = (part.title or part.id for part in parts)
     if getattr(mating, "ring_first", False):
-        # the picture counts the pinion first
         first, second = second, first
-    section = f" ({word('transverse_section')})" if helix else ""
-    return Facts(f"{word(picture.kind)}{section}: {first} (1), {second} (2)", tuple(rows))
+    return f"{first} (1), {second} (2)"

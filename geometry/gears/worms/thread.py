@@ -150,23 +150,15 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
     high, tip_half = tip, half(tip)
     rounding: list[tuple[Part, SectionLine]] = []
     if tip_rounding > 0:
-
-        def beyond(r: float) -> float:
-            return r - tip + tip_rounding * (1 + way(r).imag)
-
-        lowest = max(low, tip - tip_rounding)
-        fits = beyond(lowest) < 0
-        if fits:
-            high = bracketed_root(beyond, lowest, tip).value
-            tip_half = half(high) - tip_rounding * way(high).real
-        if not (fits and high > worm.reference_radius and tip_half >= least):
+        found = _rounding(worm, tip_rounding, low, half, way)
+        if found is None:
             raise ParameterError(
                 "tip_rounding", tip_rounding, "worm_rounding_too_large",
                 lambda: nearest(lambda value: thread_of(worm, value) is not None, tip_rounding, 0.0),
             )  # fmt: skip
-        centre = complex(tip - tip_rounding, tip_half)
-        spoke = math.atan2(half(high) - tip_half, high - centre.real)
-        rounding.append(("rounding", Arc(centre, tip_rounding, spoke, -spoke)))
+        high, arc = found
+        tip_half = arc.centre.imag
+        rounding.append(("rounding", arc))
     if low < begin:
         # only the involute starts radially, what a huge wheel grinds but nearly so
         if not isinstance(flank, InvoluteFlank):
@@ -176,6 +168,29 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
     end = math.sqrt((high - flank.least_radius) * (high + flank.least_radius))
     lines.append(("flank", FlankLine(worm, (start, end))))
     return Thread(worm, tip_rounding, (*lines, *rounding), root_half, tip_half)
+
+
+def _rounding(
+    worm: Worm, radius: float, low: float, half: Callable[[float], float], way: Callable[[float], complex]
+) -> tuple[float, Arc] | None:
+    """The radius at which the flank ends at the tip's arc, and that arc; None where there is no room for it.
+
+    ``low``: at which the flank begins; ``half`` thickness and ``way`` of it at a radius.
+    """
+    tip = worm.tip_radius
+
+    def beyond(r: float) -> float:
+        return r - tip + radius * (1 + way(r).imag)
+
+    lowest = max(low, tip - radius)
+    if not beyond(lowest) < 0:
+        return None
+    high = bracketed_root(beyond, lowest, tip).value
+    centre = complex(tip - radius, half(high) - radius * way(high).real)
+    if not (high > worm.reference_radius and centre.imag >= LEAST_LAND * worm.module):
+        return None
+    spoke = math.atan2(half(high) - centre.imag, high - centre.real)
+    return high, Arc(centre, radius, spoke, -spoke)
 
 
 def _fillet(centre: complex, end: complex) -> Arc:

@@ -274,19 +274,24 @@ class WormTeeth(Record, dict=True):
             if self._is_cut(radii[:, all_fillet], normal[all_fillet], z[all_fillet]):
                 raise NoTooth("worm_wheel_undercut")
         hurry, goes_on = self._hurry(z, inner, normal, outer)
+        side = Side(z, inner, normal, outer, undercut, hurry, all_fillet)
+        self._check(side, goes_on)
+        return side
+
+    def _check(self, side: Side, goes_on: Flags) -> None:
+        """Refuse sides that fold, or whose contact does not go on to their ends."""
+        z, normal, all_fillet = side.heights, side.normal, side.all_fillet
         way = self.hob.cut(self.hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).distance
         if not (np.diff(way, axis=0) > 0).all():
             raise NoTooth("worm_wheel_undercut")
         if not (goes_on | all_fillet).all():
             # the contact has run off to infinity on the other side, where the hob cuts from behind
             raise NoTooth("worm_wheel_flank_ends")
-        side = Side(z, inner, normal, outer, undercut, hurry, all_fillet)
         run = np.diff(self.flank(side, _FOLD).distance, axis=0)
-        short = all_fillet | (run.sum(axis=0) < _LEAST_DEPTH * hob.worm.module)
+        short = all_fillet | (run.sum(axis=0) < _LEAST_DEPTH * self.hob.worm.module)
         if not ((run > _STILL * run.mean(axis=0)) | short).all():
             # about to fold within the flank
             raise NoTooth("worm_wheel_undercut")
-        return side
 
     def _hurry(self, z: Real, inner: Real, normal: Real, outer: Real) -> tuple[tuple[Real, Real], Flags]:
         """How fast both parts go at their beginnings beside their ends, and whether the contact goes on there."""

@@ -149,16 +149,7 @@ def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Ex
     along = Paper(scale, complex(middle, box.high - spread - scale * worm.tip_radius))
     canvas.head(f"{sheet_words(language, 'worm')}: {title}", _GAP)
     curves = _curves(field, flanks, along, math.pi * worm.module)
-    made: dict[int, BSpline] = {}
-    for curve in curves:
-        key = id(curve.line)
-        if key not in made:
-            # an eighth of the tolerance is left to the file's numbers
-            made[key], off = curve.line.spline(0.875 * asked.tolerance / scale)
-            canvas.max_error, canvas.sampled = max(canvas.max_error, off * scale), True
-        fit = made[key]
-        seen = replace(fit, poles=curve.points(greville(3, fit.knots), fit.poles))
-        canvas.add(curve.layer, curve.paper.scaled(seen))
+    _draw_curves(canvas, curves, scale, asked.tolerance)
     _draw_sides(canvas, field, flanks, along)
     _draw_worm(canvas, mating, along)
     table = Table((*rows, _scale(scale, language)), canvas.letters)
@@ -173,6 +164,20 @@ def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Ex
     for number, paper in enumerate(flanks, 1):
         labels.name(str(number), paper.point(1j * (root + depth)), prefer=1j)
     return Expected(canvas, along, (), measures=WormMeasures(tuple(curves)))
+
+
+def _draw_curves(canvas: Canvas, curves: list[_View], scale: float, tolerance: float) -> None:
+    """Each line, whose views share one spline, in its places."""
+    made: dict[int, BSpline] = {}
+    for curve in curves:
+        key = id(curve.line)
+        if key not in made:
+            # an eighth of the tolerance is left to the file's numbers
+            made[key], off = curve.line.spline(0.875 * tolerance / scale)
+            canvas.max_error, canvas.sampled = max(canvas.max_error, off * scale), True
+        fit = made[key]
+        seen = replace(fit, poles=curve.points(greville(3, fit.knots), fit.poles))
+        canvas.add(curve.layer, curve.paper.scaled(seen))
 
 
 def _curves(field: Field, flanks: list[Paper], along: Paper, pitch: float) -> list[_View]:
