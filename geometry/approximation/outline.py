@@ -64,6 +64,11 @@ def parted(profile: Profile) -> Profile:
     return replace(profile, period=tuple(Segment(part, s.label) for s in profile.period for part in s.curve.parts()))
 
 
+def most_spans(curve: Curve) -> int:
+    """Of a spline over all of a curve: where it needs more, its parts between knots need fewer."""
+    return _SPANS_A_KNOT * (len(curve.knots) + 1) if curve.knots.size else MOST_SPANS
+
+
 def spline_outline(
     profile: Profile, tolerance: float, *, degree: int, continuity: int, turned: bool = False, at_knots: bool = False
 ) -> Outline:
@@ -95,7 +100,7 @@ def spline_outline(
             spline = twin.mirrored()
         else:
             family = getattr(curve, "family", None)
-            most = _SPANS_A_KNOT * (len(curve.knots) + 1) if curve.knots.size else MOST_SPANS
+            most = most_spans(curve)
             try:
                 fit = fit_spline(
                     curve, tolerance, degree=degree, continuity=continuity, like=alike.get(family), most=most

@@ -16,9 +16,9 @@ from typing import get_args
 
 import numpy as np
 
-from geometry.approximation.outline import CadCurve
+from geometry.approximation.outline import CadCurve, most_spans
 from geometry.approximation.splines import SplineFit, fit_spline
-from geometry.base.errors import ParameterError
+from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import BSpline
@@ -418,16 +418,26 @@ class Canvas(Draft):
 
 
 def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: float) -> tuple[CadCurve, ...]:
-    """Exact curves in model mm as what a file holds: splines where they are neither line nor arc.
+    """Exact curves in model mm as what a file holds; see ``fitted_each``."""
+    return tuple(one for made in fitted_each(canvas, curves, scale, tolerance) for one in made)
 
-    ``tolerance`` in mm on paper; mirror images share one fit, and so does one shape in several places.
+
+def fitted_each(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: float) -> list[list[CadCurve]]:
+    """Exact curves in model mm, each as what a file holds of it: splines where it is neither line nor arc.
+
+    ``tolerance`` in mm on paper; mirror images share one fit, and so does one shape in several places. A curve that one
+    spline does not follow is cut at its knots.
     """
+    made: list[list[CadCurve]] = [[] for _ in curves]
     done: dict[Curve, BSpline] = {}
     shapes: dict[Curve, tuple[BSpline, Placement2]] = {}
     # the latest of each kind of curves that differ little from one to the next
     alike: dict[object, SplineFit] = {}
-    for curve in curves:
+    left = [*enumerate(curves)][::-1]
+    while left:
+        index, curve = left.pop()
         if isinstance(curve, Arc | Line):
+            made[index].append(curve)
             continue
         if (twin := done.get(curve.mirrored())) is not None:
             done[curve] = twin.mirrored()
@@ -436,7 +446,14 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
             done[curve] = spline.placed(curve.placement @ place.inverse())
         else:
             family = getattr(curve, "family", None)
-            fit = fit_spline(curve, tolerance / scale, degree=3, continuity=2, like=alike.get(family))
+            most = most_spans(curve)
+            try:
+                fit = fit_spline(curve, tolerance / scale, degree=3, continuity=2, like=alike.get(family), most=most)
+            except ConvergenceError:
+                if not curve.knots.size:
+                    raise
+                left += [(index, part) for part in curve.parts()[::-1]]
+                continue
             if family is not None:
                 alike[family] = fit
             canvas.max_error = max(canvas.max_error, fit.max_error * scale)
@@ -444,7 +461,8 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
             done[curve] = fit.spline
             if isinstance(curve, Carried):
                 shapes[curve.base] = fit.spline, curve.placement
-    return tuple(curve if isinstance(curve, Arc | Line) else done[curve] for curve in curves)
+        made[index].append(done[curve])
+    return made
 
 
 def draw(canvas: Canvas, layer: str, curves: Sequence[CadCurve], paper: Paper) -> None:

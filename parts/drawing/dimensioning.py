@@ -28,7 +28,7 @@ from parts.drawing.canvas import (
     Text,
     decimal,
     draw,
-    fitted,
+    fitted_each,
     rising_text,
     text_of,
     text_width,
@@ -92,7 +92,7 @@ _BESIDE = 2.0
 class Laid(Record):
     """What is added to a view on a canvas of its own, its origin at 0, and the room that all takes, mm on paper.
 
-    The view's own curves are not on the canvas: they are fitted once it is known at which scale it is drawn.
+    The view's own curves are not on the canvas: they are fitted_each once it is known at which scale it is drawn.
     """
 
     view: View
@@ -796,9 +796,9 @@ def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[l
 
 def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
     """Put a view onto a sheet, its curves within ``tolerance`` mm on paper."""
-    curves = fitted(canvas, [curve for _, curve in view.view.strokes], view.scale, tolerance)
-    for (layer, _), curve in zip(view.view.strokes, curves, strict=True):
-        draw(canvas, layer, [curve], Paper(view.scale, shift))
+    curves = fitted_each(canvas, [curve for _, curve in view.view.strokes], view.scale, tolerance)
+    for (layer, _), made in zip(view.view.strokes, curves, strict=True):
+        draw(canvas, layer, made, Paper(view.scale, shift))
     strokes, texts = len(canvas.strokes), len(canvas.texts)
     canvas.take(view.canvas, shift)
     canvas.dimensions += [

@@ -14,6 +14,7 @@ from geometry.approximation.splines import SplineFit, fit_spline
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
+from geometry.cams.plane.shape import cam_shape
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Carried, Curve
 from geometry.curves.ellipse import EllipticArc
@@ -34,6 +35,7 @@ from parts.drawing.canvas import (
     text_of,
     text_width,
 )
+from parts.scene.load import make_parts, scene_from_dict
 
 
 def test_a_shape_in_three_places_lies_in_each() -> None:
@@ -347,3 +349,26 @@ def test_squares_are_whole_about_what_is_left_out_at_their_right_side() -> None:
     parted = [(x + low, x + high) for x in (17.5, 20.0) for low, high in ((0j, 5j), (10j, 20j))]
     level = [(k * 2.5j, k * 2.5j + (15 if k == 3 else 20)) for k in range(9)]
     assert lines == [*upright, *parted, *level]
+
+
+def test_a_curve_that_no_single_spline_follows_is_cut_at_its_knots() -> None:
+    """Its DXF for CAD held 1e-6 mm, its sheet was refused: over all rows of a table 512 spans were not enough.
+
+    What is drawn is held to rollers about the follower's places: the envelope is 6 mm from the nearest of them.
+    """
+    rows = [(0, 0), (30, 4), (60, 12), (90, 20), (150, 20), (180, 16), (210, 8), (240, 0), (300, 0)]
+    keys = {"kind": "cam", "follower": "roller", "follower_radius": 6.0, "base_circle_radius": 30.0,
+            "motion_table": [list(map(float, row)) for row in rows]}  # fmt: skip
+    cam = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"].thing
+    canvas = Canvas(297.0, 210.0, "A4")
+    made = fitted(canvas, [segment.curve for segment in cam_shape(cam).profile.period], 1.0, 1e-6)
+    assert len(made) == len(rows)
+    assert canvas.max_error <= 1e-6
+    for one, other in zip(made, (*made[1:], made[0]), strict=True):
+        assert abs(one.point(one.domain[1]) - other.point(other.domain[0])) < 1e-9
+    angles = np.linspace(0, math.tau, 40_001)
+    centres = (36 + cam.motion.value(angles)) * np.exp(1j * (math.pi / 2 - angles))
+    for one in made:
+        drawn = one.point(np.linspace(*one.domain, 7))
+        least = np.array([np.abs(centres - place).min() for place in drawn])
+        assert np.abs(least - 6).max() < 2e-6
