@@ -10,6 +10,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # a worker or a command that may keep no bytecode compiles every file anew: a third of what a small build takes
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
+import atexit
 import gc
 import random
 import sys
@@ -76,6 +77,9 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     if _heavy_alone(config):
         take_all_examples()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        # it has told all: what it holds need not be taken apart piece by piece, for four seconds
+        atexit.register(os._exit, 0)
     asked = any(str(argument).startswith("--assert") for argument in config.invocation_params.args)
     if config.getoption("numprocesses", None) and not asked and "PYTEST_XDIST_WORKER" not in os.environ:
         # the one way to a worker's options

@@ -319,7 +319,7 @@ def test_other_guides_of_the_example(height: float) -> None:
     assert value(data, "a_D") == pytest.approx(abs(right["a_D_m_s2"]), rel=1e-8)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("assignment", range(1, 11))
 def test_every_assignment_moves_all_round(assignment: int) -> None:
     """Every row of it; what the tables tell is what the steps tell, and the output comes back to where it began."""

@@ -364,6 +364,7 @@ def test_a_crank_that_speeds_up() -> None:
     assert vectors["πn1"] + vectors["n1a"] == pytest.approx(vectors["πa"], rel=1e-12)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "words",
     [f"lever assignment=1 {' '.join(keys_of(1))}", f"lever assignment=10 variant=3 {' '.join(keys_of(10))}",

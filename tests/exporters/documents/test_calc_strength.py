@@ -78,6 +78,7 @@ def test_a_wrong_formula_would_be_noticed() -> None:
     assert wrong == []
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("typed", SHEETS[::4], ids=" ".join)
 @pytest.mark.parametrize("form", SPOKEN)
 def test_both_languages_and_every_form(typed: tuple[str, ...], form: str) -> None:
@@ -132,7 +133,7 @@ def test_the_torque_that_is_allowed_leaves_the_least_safety(method: str) -> None
     assert min(shares) == pytest.approx(1, rel=1e-12)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("key", "one", "two", "method"),
     [

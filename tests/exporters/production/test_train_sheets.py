@@ -110,7 +110,7 @@ def test_the_schemes_of_figure_2_1(tmp_path: Path, teeth: tuple[int, int, int, i
         assert ratios(tmp_path / "set.dxf") == pytest.approx((float(ratio), float(ratio)), rel=1e-6)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("layer", ["VELOCITY", "ANGULAR_VELOCITY"])
 @pytest.mark.parametrize("index", [0, 1, -1])
 def test_a_line_that_is_off_is_seen(tmp_path: Path, layer: str, index: int) -> None:

@@ -61,6 +61,7 @@ def test_a_chain_that_gives_its_distance_is_taut(links: int) -> None:
     assert mate["chain_slack"] == 0
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("links", [58, 64, 80, 100])
 def test_a_distance_as_it_is_told_has_the_chain_that_told_it(links: int) -> None:
     """Of five decimals every second one is rounded up: it had two links more, or was refused."""

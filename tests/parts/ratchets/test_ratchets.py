@@ -312,6 +312,7 @@ def test_any_number_of_teeth_makes_a_ratchet_from_two_keys() -> None:
         assert checks["mates"][0]["verdict"] == "contact"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("teeth", "line"), [(20, 36.0), (10, 37.5), (16, -10.0)])
 def test_a_pawl_that_leans_is_as_long_as_its_teeth_need(teeth: int, line: float) -> None:
     """Its default length: one whose pivot stood before the knee of its underside ran into the teeth."""
@@ -397,7 +398,7 @@ def test_a_random_ratchet_rides_or_is_refused(seed: int) -> None:
     assert shape.stands(turn) == pytest.approx(found, abs=1e-3)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "own", [{"clearance_angle_deg": 1.0}, {"clearance": 2.5}, {"clearance_angle_deg": 25.0, "nose_height": 2.0}]
 )

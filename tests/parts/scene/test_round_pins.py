@@ -224,7 +224,7 @@ def test_lantern_pair() -> None:
         assert has_bad_verdict(checks) is (verdict is None)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("turn", [-0.3, 0.0, 0.3])
 def test_a_lantern_on_a_gear_that_stands_is_that_gear_on_its_lantern(turn: float) -> None:
     # a train of lanterns grows from the great wheel on, and from the escape wheel back

@@ -99,6 +99,7 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
     assert told in said
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("given", "code", "told"),
     # a = (q + z2 + 2 x) m / 2 is 30 mm without a shift

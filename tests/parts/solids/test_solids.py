@@ -135,6 +135,7 @@ def test_a_gear_becomes_one_sound_solid(name: str, tolerance: float) -> None:
     check_caps(mesh, outer, bore)
 
 
+@pytest.mark.sampled(14)
 @pytest.mark.parametrize("offset", [-0.4, -0.05, 0.05, 0.4])
 @pytest.mark.parametrize("name", ["z 5 bore", "z 8 deep undercut", "z 23", "z 23 bore", "relieved", "sharp rack"])
 def test_an_offset_gear_is_a_sound_solid_too(name: str, offset: float) -> None:

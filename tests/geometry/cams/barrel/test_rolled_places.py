@@ -78,6 +78,7 @@ def test_a_roller_rests_on_walls_at_every_angle() -> None:
         assert not np.isfinite(half).all()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("cam", [AXIAL, SWINGING], ids=["axial", "swinging"])
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 @pytest.mark.parametrize("start", [0.6, 2.0])

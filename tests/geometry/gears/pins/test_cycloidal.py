@@ -74,7 +74,7 @@ def test_published_equation(case: list[float]) -> None:
     assert np.abs(boundary.feet(points).distance).max() <= 1e-12 * radius
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY
 def test_all_pins_touch_at_every_angle(disc: CycloidalDisc) -> None:
     found = contact(disc)

@@ -90,6 +90,7 @@ def test_the_greatest_acceleration_is_where_the_jerk_of_the_triangle_vanishes(sl
     assert ring.greatest_acceleration == pytest.approx(math.tan(math.pi / slots), rel=1e-13)
 
 
+@pytest.mark.sampled(1)
 @BOTH
 def test_the_wheel_goes_on_by_a_slot_for_each_pin_and_stands_between(internal: bool) -> None:
     drive = Geneva(5, 60.0, 1 if internal else 3, internal)
@@ -168,7 +169,7 @@ def test_a_relief_without_clearance_touches_what_is_swept(disc: GenevaDisc) -> N
     assert GenevaContact(replace(disc, relief_clearance=0.0)).result().worst.gap == pytest.approx(0.0, abs=1e-7)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY
 def test_without_clearances_pin_or_disc_touch_all_the_time(disc: GenevaDisc) -> None:
     tight = replace(disc, wheel=replace(disc.wheel, slot_clearance=0.0, locking_clearance=0.0))

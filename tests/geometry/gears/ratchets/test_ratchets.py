@@ -161,7 +161,7 @@ def test_a_pawl_drops_where_the_edge_is_beyond_its_reach(name: str) -> None:
     assert blocked(pawl, pawl.overrun * 0.8) > 1e-5
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", WHEELS)
 def test_contact_is_seen_and_what_is_off_is_not_taken_for_it(name: str) -> None:
     pawl = pawl_for(WHEELS[name])

@@ -62,7 +62,7 @@ def test_a_curve_that_is_no_arc_stays_one() -> None:
     assert not any(isinstance(c, Arc | Line) for c in curves_of(ROLLER | {"phases": phases}))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["tangent", "arcs", "hollow", "eccentric, roller"])
 def test_files_are_read_back_with_their_follower(name: str, tmp_path: Path) -> None:
     exports = [{"format": "dxf"}, {"format": "stl", "tolerance": 0.05}, {"format": "step"}]

@@ -86,6 +86,7 @@ def solids(raw: dict[str, Any], turned: float = 0.0) -> list[Any]:
     return found
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("angle", [90.0, 65.0])
 def test_teeth_stand_in_spaces_wherever_the_first_stands(angle: float) -> None:
     """By meshes alone: a gap of half the backlash in place; turned by a third of a pitch they clash."""
