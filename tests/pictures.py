@@ -24,6 +24,7 @@ OF: dict[str, tuple[str, str]] = {name: (name, f"{name}.preview.svg") for name i
     "cam_sheet": ("practicum_roller_cam", "practicum_roller_cam.cam.cam.svg"),
     "laser_wheel": ("laser_gear", "wheel.preview.svg"),
     "lesson_5_board": ("lesson_5", "lesson_5.board.1.preview.svg"),
+    "part_drawing": ("working_drawings", "gear.part.svg"),
     "power_table_board": ("power_table_laser", "power_table_laser.board.1.preview.svg"),
     "power_table_exploded": ("power_table_laser", "power_table_laser.exploded.preview.svg"),
     "power_table_laser": ("power_table_laser", "power_table_laser.motion.svg"),
