@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
 from itertools import pairwise
-from typing import NamedTuple, Protocol, cast
+from typing import NamedTuple, Protocol, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,6 +28,8 @@ _MOST_TURN, _HALVINGS = 0.5, 6
 _CACHED, _WINDOW = 30_000, 300
 # and those of samples to points when all of them are looked at; what a curve is longer than its chord
 _AT_ONCE, _BULGE = 1_000_000, 1.2
+# points with a curve each that are asked together
+_PAIRS = 200_000
 # lines and arcs that cost less by their closed forms than by samples of all
 _FEW = 4
 # near a cusp the steps only halve the error, so the thorough pass takes many
@@ -37,6 +39,8 @@ _STILL = 1e-12
 # ends so near, mm, shut a curve
 _SHUT = 1e-6
 NDArrayInt = NDArray[np.int64]
+# numbers of points, each with that of a curve, and where it stands turned to it
+_Asked: TypeAlias = tuple[NDArrayInt, NDArrayInt, Complex]
 
 
 class Travelled(Protocol):
@@ -294,43 +298,63 @@ def _thorough_distance(
     chain_of = np.repeat(np.arange(len(chains)), [*map(len, chains)])
     rows_of = [np.flatnonzero(own == k) for k in range(len(chains))]
     nears = [[points[rows] * turn for turn in some] for rows, some in zip(rows_of, turns, strict=True)]
-    for numbers in _groups(curves):
-        some = [curves[i] for i in numbers]
-        group = _evenly(some, _FINE_SAMPLES) if len(some) > 1 else _sampled(some, _fine(some[0])[None])
+
+    def asked(numbers: NDArrayInt, group: _Alike) -> Iterator[_Asked]:
+        """The points, each with every curve that may be so near."""
         middles, reaches = _discs(group.points)
-        asked: list[tuple[NDArrayInt, NDArrayInt, Complex]] = []
         for chain in np.unique(chain_of[numbers]).tolist():
             places = np.flatnonzero(chain_of[numbers] == chain)
             for near in nears[chain]:
-                away = np.abs(near[:, None] - middles[places]) - reaches[places]
-                row, column = np.nonzero(away <= most[rows_of[chain], None])
-                asked.append((rows_of[chain][row], places[column], near[row]))
-        rows, which, near = (np.concatenate(x) for x in zip(*asked, strict=True))
-        if not rows.size:
-            continue
-        count = math.ceil(near.size * group.parameters.shape[1] / _AT_ONCE)
-        blocks = np.array_split(np.arange(len(near)), count)
-        if len(some) == 1:
-            start = _nearest_index(near, group.points[0])
-        else:
-            start = np.concatenate([np.abs(near[x, None] - group.points[which[x]]).argmin(axis=1) for x in blocks])
-        found = _projected(near, group, which, start, newton=True)
-        if not isinstance(some[0], Arc | Line):
-            ways = group.every(lambda curve, t: curve.derivatives(t, 1)[1])
-            for block in blocks:
-                found[block] = _on_other_branches(near[block], group, ways, which[block], found[block])
-        np.minimum.at(best, rows, found)
+                for block in np.array_split(np.arange(near.size), math.ceil(near.size * len(places) / _PAIRS)):
+                    rows, at = rows_of[chain][block], near[block]
+                    row, column = np.nonzero(
+                        np.abs(at[:, None] - middles[places]) - reaches[places] <= most[rows, None]
+                    )
+                    if row.size:
+                        yield rows[row], places[column], at[row]
+
+    for numbers in _groups(curves):
+        some = [curves[i] for i in numbers]
+        group = _evenly(some, _FINE_SAMPLES) if len(some) > 1 else _sampled(some, _fine(some[0])[None])
+        for rows, which, near in _batches(asked(numbers, group)):
+            blocks = np.array_split(np.arange(near.size), math.ceil(near.size * group.parameters.shape[1] / _AT_ONCE))
+            if group.whole is None:
+                start = _nearest_index(near, group.points[0])
+            else:
+                start = np.concatenate([np.abs(near[x, None] - group.points[which[x]]).argmin(axis=1) for x in blocks])
+            found = _projected(near, group, which, start, newton=True)
+            if not isinstance(some[0], Arc | Line):
+                for block in blocks:
+                    found[block] = _on_other_branches(near[block], group, which[block], found[block])
+            np.minimum.at(best, rows, found)
     return best
 
 
-def _on_other_branches(points: Complex, group: _Alike, ways: Complex, which: NDArrayInt, found: Real) -> Real:
+def _batches(parts: Iterator[_Asked]) -> Iterator[_Asked]:
+    """Small parts put together: of a wrong file every point is asked of every curve, which are too many at once."""
+    held: list[_Asked] = []
+    for part in parts:
+        held.append(part)
+        if sum(rows.size for rows, _, _ in held) > _PAIRS:
+            yield _one(held)
+            held = []
+    if held:
+        yield _one(held)
+
+
+def _one(held: list[_Asked]) -> _Asked:
+    rows, which, points = (np.concatenate(x) for x in zip(*held, strict=True))
+    return rows, which, points
+
+
+def _on_other_branches(points: Complex, group: _Alike, which: NDArrayInt, found: Real) -> Real:
     """What is ``found`` from the nearest sample, or less.
 
     Of a curve that comes back beside itself, or turns between samples far from each other, a piece that does not end at
     that sample may be nearer: by half of its length than its nearer end at most. The distance falls at its start then
     and rises at its end. One that ends there is asked again, from its other end, where steps from there led nowhere.
     """
-    samples = group.points[which]
+    samples, ways = group.points[which], group.every(lambda curve, t: curve.derivatives(t, 1)[1])
     spokes = points[:, None] - samples
     gap, falls = np.abs(spokes), (np.conj(ways[which]) * spokes).real
     least = np.minimum(gap[:, :-1], gap[:, 1:]) - _BULGE / 2 * np.abs(np.diff(samples))

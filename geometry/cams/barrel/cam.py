@@ -184,7 +184,7 @@ class BarrelCam(Record, dict=True):
         rate = derived(place)
         rho: Series = [first, *(0.0 * first for _ in range(order))]
         slope = None
-        for _ in range(order + 1):
+        for _ in range(order):
             q = self._touched(place, rate, rho, side)
             y = [x.real for x in q]
             if slope is None:
