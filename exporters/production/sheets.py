@@ -291,7 +291,9 @@ def _add_title_block(
     more = {"name": given.name or (part and part.title) or wanted.title}
     more["mass"] = given.mass or mass
     if part is not None:
-        more["material"] = given.material or material_told(part.material, words(language))
+        known = material_told(part.material, words(language))
+        # a cell of the form begins with a capital, a scene's key need not
+        more["material"] = given.material or known[:1].upper() + known[1:]
         if export.purpose == "part":
             name, designation = drawn_names(part, language)
             more |= {"name": given.name or name, "designation": given.designation or designation}

@@ -175,7 +175,7 @@ def test_the_block_of_one_part_tells_its_material_and_mass() -> None:
             "exports": [{"format": "sheet", "purpose": "cam", "title_block": given, **ROUGH}],
         }
         words = [t.text for t in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets[0].canvas.texts]
-        assert {"steel 45", wanted} <= set(words)
+        assert {"Steel 45", wanted} <= set(words)
 
 
 @pytest.mark.parametrize(
