@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -39,6 +40,7 @@ class CamShape(Record):
         return max((g.lost_lift for g in self.gaps), default=0.0)
 
 
+@lru_cache(maxsize=16)
 def cam_shape(cam: DiskCam, grow: float = 0.0) -> CamShape:
     """The profile of a disk cam moved ``grow`` mm out of the material, loops and cusps trimmed.
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -326,18 +326,9 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         They lie ``off_root``: corners run on beyond the end of the involute. Tips that no tooth could have so short
         stay, and so do those of teeth that do not reach each other.
         """
-        a_w, sign = self.working_centre_distance, self.sign
-        roots = sign * (a_w - self.second.root_radius), a_w - sign * self.first.root_radius
-        found: list[float | None] = [None, None]
-        gears: tuple[SpurGear | G, ...] = self.gears
-        for index, (gear, most, root) in enumerate(zip(gears, self.tip_limits, roots, strict=True)):
-            limit = min(gear.sign * most / 2, gear.sign * root)
-            if gear.sign * gear.tip_radius > limit + _SAME and self.effective_contact_ratio > 0:
-                tip = gear.sign * off_root(limit, self.module)
-                found[index] = tip if self._can_end(index, tip) else None
-        return found[0], found[1]
+        return _tips_off_roots(self)
 
-    def _can_end(self, index: int, tip_radius: float) -> bool:
+    def can_end(self, index: int, tip_radius: float) -> bool:
         """Whether one of the gears can have a tip radius, mm."""
         gear: Any = replace(self.gears[index], given_tip_diameter=2 * tip_radius)
         pair = replace(self, second=gear) if index else replace(self, first=gear)
@@ -420,6 +411,21 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         """The same to where the mate's tip touches; negative beyond the base circle's point of contact."""
         tips, line, sign = self._tip_tangents(), self._line_of_action, self.sign
         return sign * (line - tips[1]), line - sign * tips[0]
+
+
+# trials of a mate ask pairs that are made anew and alike
+@lru_cache(maxsize=64)
+def _tips_off_roots(pair: InvolutePair[Any, Any]) -> tuple[float | None, float | None]:
+    a_w, sign = pair.working_centre_distance, pair.sign
+    roots = sign * (a_w - pair.second.root_radius), a_w - sign * pair.first.root_radius
+    found: list[float | None] = [None, None]
+    gears: tuple[Any, ...] = pair.gears
+    for index, (gear, most, root) in enumerate(zip(gears, pair.tip_limits, roots, strict=True)):
+        limit = min(gear.sign * most / 2, gear.sign * root)
+        if gear.sign * gear.tip_radius > limit + _SAME and pair.effective_contact_ratio > 0:
+            tip = gear.sign * off_root(limit, pair.module)
+            found[index] = tip if pair.can_end(index, tip) else None
+    return found[0], found[1]
 
 
 def off_root(limit: float, module: float) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 from geometry.base.errors import ParameterError, PointedTipError, UndercutError
@@ -76,6 +77,8 @@ class SideCurves(Record):
         )
 
 
+# mates and trials of them make the same gears over and over
+@lru_cache(maxsize=256)
 def tooth_side(gear: SpurGear) -> ToothSide:
     """The lower side of tooth 1 as generated.
 
