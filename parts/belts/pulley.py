@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,7 +14,7 @@ from geometry.base.record import replace
 from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.lookalikes import in_latin
-from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
+from parts.keys.base import MOST_LENGTH, check_idle, degrees, in_vain, mm, part_mm, start
 from parts.keys.holes import holes_of, spoked
 from parts.keys.pins import check_holes
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -77,6 +78,11 @@ class TimingPulleyKind(WheelKind[TimingPulleySpec, "Pulley"]):
     name, keys = "timing_pulley", TimingPulleySpec
     drawing = data_table = "parts.belts.drawing"
 
+    def idle(self, keys: TimingPulleySpec, others: Others) -> Iterator[ParameterError]:
+        """Chamfers of faces that flanges cover."""
+        if keys.flanges is not None:
+            yield from in_vain(keys, ("face_chamfer",), "of_no_flanges")
+
     def thing(self, keys: TimingPulleySpec, others: Others) -> Pulley:
         """The pulley, checked to have lands between its grooves, and holes within them."""
         from geometry.gears.belts.pulley import Flanges, Pulley, check_flanges, checked_pulley
@@ -85,8 +91,7 @@ class TimingPulleyKind(WheelKind[TimingPulleySpec, "Pulley"]):
         if table is not None:
             if not (table.below or table.above):
                 raise ParameterError("flanges.above", False, "flanges_at_no_face", Nearest(True))
-            if keys.face_chamfer:
-                raise ParameterError("face_chamfer", None, "of_no_flanges", Nearest(None))
+            check_idle(self.idle(keys, others))
             flanges = Flanges(table.diameter, table.thickness, table.below, table.above)
         pulley = checked_pulley(
             Pulley(keys.number_of_teeth, belt_of_keys(keys), keys.clearance, keys.outer_diameter)

@@ -25,7 +25,7 @@ _KINDS: dict[str, Mapping[str, Any]] = {"parts": KINDS, "assemblies": RECIPES, "
 _PLAIN: dict[str, type[Struct]] = {"boards": BoardSpec, "beds": BedSpec}
 # keys that a table has already in another form
 INSTEAD = {
-    "bore_diameter": ("bore",),
+    "bore_diameter": ("bore", "centre_holes"),
     "bore": ("bore_diameter",),
     "kerf": ("offset",),
     "offset": ("kerf",),
@@ -39,6 +39,13 @@ INSTEAD = {
     "diameter_quotient": ("lead_angle_deg",),
     "lead_angle_deg": ("diameter_quotient",),
     "chain": ("pitch",),
+    **dict.fromkeys(
+        ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse_pitch", "strands"), ("chain",)
+    ),
+    "tip_chamfer": ("tip_rounding",),
+    "tip_rounding": ("tip_chamfer",),
+    "axis_ratio": ("eccentricity",),
+    "eccentricity": ("axis_ratio",),
 }
 # keys that say how thick a flat part is
 _THICK = {"parts": ("face_width",), "assemblies": ("face_width", "plate_thickness")}

@@ -109,8 +109,6 @@ def contour_motion(keys: ContourKeys) -> FollowerMotion:
     check_idle(in_vain(keys, ("table_tolerance",), "tolerance_without_table"))
     if keys.oscillating is not None:
         raise ParameterError("contour", None, "contour_needs_slide")
-    if keys.follower != "flat" and keys.follower_offset:
-        raise ParameterError("follower_offset", keys.follower_offset, "contour_is_centric", Nearest(0.0))
     if keys.base_circle_radius is None:
         raise ParameterError("base_circle_radius", None, "contour_needs_base")
     try:

@@ -134,12 +134,25 @@ class FacedKeys(Protocol):
     plate_diameter: float | None
 
 
+def _idle_follower(keys: CamSpec) -> Iterator[ParameterError]:
+    """What another follower has: a radius, an offset, an angle of its return."""
+    if keys.follower in ("pointed", "flat"):
+        yield from in_vain(keys, ("follower_radius",), "follower_has_no_radius", end=keys.follower)
+    if keys.oscillating is not None:
+        yield from in_vain(keys, ("follower_offset",), "arm_has_no_offset")
+    elif keys.contour is not None and keys.follower != "flat":
+        yield from in_vain(keys, ("follower_offset",), "contour_is_centric")
+    elif keys.follower == "flat" and keys.base_circle_radius is None:
+        yield from in_vain(keys, ("least_return_transmission_angle_deg",), "flat_has_no_return_angle")
+
+
 def cam_of(keys: CamSpec) -> DiskCam:
     """The cam of the keys, not yet checked for undercut; refusals speak in the scene's keys."""
     from geometry.cams.plane.disk import FollowerKind, translating_cam
 
     swing, base = keys.oscillating, keys.base_circle_radius
     check_idle(idle_stroke(keys, swing is not None, tabled=keys.motion_table is not None))
+    check_idle(_idle_follower(keys))
     kind = FollowerKind(keys.follower)
     motion = motion_of(keys, swing is not None) if keys.contour is None else contour_motion(keys)
     try:
@@ -148,8 +161,6 @@ def cam_of(keys: CamSpec) -> DiskCam:
             return translating_cam(
                 motion, kind, base, radius=keys.follower_radius, follower_offset=keys.follower_offset
             )
-        if keys.follower_offset:
-            raise ParameterError("follower_offset", keys.follower_offset, "arm_has_no_offset", Nearest(0.0))
         if swing.face_offset and keys.follower != "flat":
             raise ParameterError("face_offset", swing.face_offset, "for_flat_only", Nearest(0.0))
         if swing.arm_length is None and keys.follower != "flat":
@@ -250,9 +261,6 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
             raise ParameterError("base_circle_radius", None, "base_circle_missing_flat")
         if angle not in (None, 45):
             raise ParameterError("least_transmission_angle_deg", angle, "flat_angle_is_45", Nearest(45.0))
-        if keys.least_return_transmission_angle_deg:
-            back = keys.least_return_transmission_angle_deg
-            raise ParameterError("least_return_transmission_angle_deg", back, "flat_has_no_return_angle", Nearest(0.0))
         least = flat_base_radius(motion, keys.least_curvature_radius).value
         return max(least * spare, 1e-3 * motion.lift)
     if angle is None:
@@ -578,6 +586,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
             names = "least_transmission_angle_deg", "least_return_transmission_angle_deg"
             yield from in_vain(keys, names, other='follower = "roller"')
         yield from idle_motion(keys, keys.oscillating is not None)
+        yield from _idle_follower(keys)
         yield from idle_plate(keys, plain=keys.oscillating is None)
 
     def thing(self, keys: CamSpec, others: Others) -> DiskCam:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
@@ -33,7 +34,7 @@ from parts.base.texts import N_
 from parts.gears.face_chamfers import chamfer_finding, check_face_chamfer
 from parts.gears.quantities import circles, tooth_quantities
 from parts.gears.toothed_kind import ToothedKind
-from parts.keys.base import BoreDiameter, in_modules, mm
+from parts.keys.base import BoreDiameter, check_idle, in_modules, in_vain, mm
 from parts.keys.cutter import CutterTable, PressureAngle, RackName, cutter_of
 from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
@@ -137,15 +138,20 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
     return gear
 
 
+def _idle(keys: SpurGearSpec) -> Iterator[ParameterError]:
+    """Crowning of teeth of a helix, or cut deeper."""
+    for key, plain in (("helix_angle_deg", 0.0), ("thinning_method", "wider_rack_tooth")):
+        if (given := getattr(keys, key)) != plain:
+            yield from in_vain(keys, ("crowning",), "not_crowned", key=key, given=given)
+
+
 def _check_crowning(keys: SpurGearSpec, gear: SpurGear) -> None:
     """Refuse teeth of a helix, or cut deeper, that are crowned, and crowning that leaves the faces no such tooth."""
     if not keys.crowning:
         return
     from geometry.gears.teeth.crowning import has_form
 
-    for key, idle in (("helix_angle_deg", 0.0), ("thinning_method", "wider_rack_tooth")):
-        if (given := getattr(keys, key)) != idle:
-            raise ParameterError("crowning", keys.crowning, "not_crowned", Nearest(0.0), key=key, given=given)
+    check_idle(_idle(keys))
 
     def outline(one: SpurGear) -> Profile:
         return moved_outline(one, 0.0)[0]
@@ -201,6 +207,11 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
 
     name, keys = "spur_gear", SpurGearSpec
     sheet_shown = "generating", N_('; purpose = "generating": device TMM-42')
+
+    def idle(self, keys: SpurGearSpec, others: Others) -> Iterator[ParameterError]:
+        """Two helices without an angle, crowning of teeth that have none."""
+        yield from super().idle(keys, others)
+        yield from _idle(keys)
 
     def thing(self, keys: SpurGearSpec, others: Others) -> SpurGear:
         """The transverse section of the gear."""

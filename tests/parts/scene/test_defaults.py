@@ -226,6 +226,28 @@ FORMS: list[tuple[dict[str, object], str, object]] = [
     (BEVEL, "tooth_line", "straight"),
     ({**DISK, "phases": PHASES}, "plate_diameter", 60.0),
     ({**DISK, "phases": PHASES}, "table_tolerance", 0.1),
+    (
+        {"kind": "cam", "follower": "flat", "base_circle_radius": 60.0, "lift": 10.0, "phases": PHASES},
+        "follower_radius",
+        8.0,
+    ),
+    (
+        {
+            **DISK,
+            "lift": 0.0,
+            "swing_deg": 9.0,
+            "oscillating": {"centre_distance": 95.0, "arm_length": 80.0},
+            "phases": PHASES,
+        },
+        "follower_offset",
+        4.0,
+    ),
+    ({"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "helix_angle_deg": 20.0}, "crowning", 0.02),
+    (
+        {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 30, "flanges": {"diameter": 22.0}},
+        "face_chamfer",
+        0.2,
+    ),
     (PITCHED, "outer_diameter", 150.0),
     ({**PITCHED, "internal": True, "outer_diameter": 150.0}, "bore_diameter", 6.0),
     ({"kind": "sprocket", "number_of_teeth": 17, "chain": "08B-1"}, "displaced", True),
