@@ -50,6 +50,8 @@ _LESS, _HALF, _NO_BETTER = 0.25, 0.5, 0.99
 _SPLINES = 0.1
 # more triangles than a file of any format carries
 _MOST_ROUNDS, _MOST_TRIANGLES = 10, 2_000_000
+# tolerances below such a part of a solid may ask for too many
+_FINE = 1e-5
 # arcs are cut into chords no longer than this, rad; samples for the bend of splines, each span
 _WIDEST, _INNER = math.pi / 4, np.linspace(0, 1, 5)
 # how near to the truth a proof shall be, part of the tolerance
@@ -163,6 +165,8 @@ class _Mesher:
 
     def run(self) -> float:
         """Triangles of all faces; the greatest distance, mm."""
+        if self.tolerance < _FINE * self.reach:
+            self._check_patches()
         for faces in self.solid.faces:
             if isinstance(faces.surface, SplineSurface | Extrusion):
                 self._patches(faces)
@@ -172,6 +176,18 @@ class _Mesher:
             points = np.concatenate(self.points)
             self.error = max(self.error, self.proof([points[one] for one in self.unproven], _SLACK * self.tolerance))
         return self.error
+
+    def _check_patches(self) -> None:
+        """Refuse too many triangles on splines before any is made: no coarser rows than these are tried."""
+        count = 0
+        for faces in self.solid.faces:
+            if isinstance(faces.surface, SplineSurface):
+                patch = patch_of(self.solid, faces.surface)
+                _, first, alike = np.unique(_nets(patch.poles), axis=0, return_index=True, return_counts=True)
+                for one, times in zip(first.tolist(), alike.tolist(), strict=True):
+                    _, rows = Bends(patch.rows(slice(one, one + 1))).rows(self.tolerance)
+                    count += 2 * times * sum(map(len, rows))
+        _check_count(self.tolerance, count)
 
     def _added(self, points: Real) -> Triangles:
         """The numbers of new vertices, of the shape of their points."""
@@ -682,13 +698,17 @@ def _spliced(rings: list[Complex], names: list[Triangles]) -> tuple[list[Complex
 
 def _templates(poles: Real) -> Triangles:
     """Of patches those that no other one is, turned: by the lengths in their nets."""
-    steps = [np.diff(poles, axis=1), np.diff(poles, axis=2), poles[:, 1:, 1:] - poles[:, :-1, :-1]]
-    lengths = np.concatenate([np.linalg.norm(s, axis=-1).reshape(len(poles), -1) for s in steps], axis=1)
-    scale = _ALIKE * max(float(np.abs(poles).max()), 1e-300)
     first: dict[bytes, int] = {}
-    for k, row in enumerate(np.round(lengths / scale / 100)):
+    for k, row in enumerate(_nets(poles)):
         first.setdefault(row.tobytes(), k)
     return np.array([*first.values()])
+
+
+def _nets(poles: Real) -> Real:
+    """The lengths in the nets of patches, a row each, equal where one is another one, turned."""
+    steps = [np.diff(poles, axis=1), np.diff(poles, axis=2), poles[:, 1:, 1:] - poles[:, :-1, :-1]]
+    lengths = np.concatenate([np.linalg.norm(s, axis=-1).reshape(len(poles), -1) for s in steps], axis=1)
+    return np.round(lengths / (_ALIKE * max(float(np.abs(poles).max()), 1e-300)) / 100)
 
 
 def _parted(grid: Grid, table: Real, points: Real, triangles: Triangles) -> tuple[Real, Real, Triangles]:

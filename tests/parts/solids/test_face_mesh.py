@@ -10,6 +10,7 @@ import pytest
 from exporters.formats.readback import ReadMesh
 from exporters.verification.faces import mesh_deviation
 from exporters.verification.topology import doubled_normals, topology_failures
+from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.solids.area import surface_area
 from geometry.solids.extent import extent
@@ -262,3 +263,14 @@ def test_solids_of_scenes_are_closed_and_as_large_as_their_bodies(scene: str) ->
         assert found.volume == pytest.approx(exact.volume, rel=1e-8)
         assert found.inertia == pytest.approx(exact.inertia, rel=1e-7, abs=1e-7 * np.abs(exact.inertia).max())
         assert held(solid, 0.05) == pytest.approx(exact.volume, abs=0.05 * surface_area(solid))
+
+
+def test_too_many_triangles_are_counted_before_any_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a worm far too fine most were made first: it was refused after 16 s."""
+    keys = {"kind": "worm", "module": 2.0, "thread_length": 40.0}
+    body = make_parts(scene_from_dict({"parts": {"worm": keys}}, "s", "s"), "s")[0]["worm"].body(0.0)
+    made: list[object] = []
+    monkeypatch.setattr("parts.solids.face_mesh.rows_between", lambda *told, **_: made.append(told))
+    with pytest.raises(ParameterError) as caught:
+        faced_mesh(body, 4e-5)
+    assert (caught.value.code, made) == ("too_many_edges", [])
