@@ -75,6 +75,8 @@ def test_what_is_noted_and_broken_is_told_below_its_mate() -> None:
     assert lines[1] == "note: Gear A and x may touch: 3 mm apart, their tips reach 4 mm, no mate joins them"
     assert lines[2].lower().startswith("overlap")
     assert lines[2].endswith(": Gear A and Gear B run into each other: 2 mm^3 in common as they stand")
+    # in Ukrainian the volume seemed to be that of every pose
+    assert check_lines(found, "uk", NAMES)[2].endswith("положенні")
 
 
 def test_transmission_errors_are_told_for_each_sense() -> None:
