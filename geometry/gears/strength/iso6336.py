@@ -141,9 +141,14 @@ def roughness_exponent(limit: float) -> float:
     return 0.15 if limit < 850 else 0.08 if limit > 1200 else 0.32 - 0.0002 * limit
 
 
-def hardening_factor(hardness: float) -> float:
-    """Z_W of a through hardened gear, HB, on a smooth hard pinion; ISO 6336-2, 13."""
-    return 1.2 - (min(max(hardness, 130.0), 470.0) - 130) / 1700
+def hardening_roughness(hard: float, soft: float, curvature: float, oil: float) -> float:
+    """R_zH of both flanks' R_z, um, of rho_red, mm, and nu_40 v, mm^2/s m/s; ISO 6336-2, 13."""
+    return hard * (10 / curvature) ** 0.33 * (hard / soft) ** 0.66 / (oil / 1500) ** 0.33
+
+
+def hardening_factor(hardness: float, roughness: float = 3.0) -> float:
+    """Z_W of a through hardened gear, HB, on a hard pinion, smooth up to R_zH = 3 um; ISO 6336-2, 13."""
+    return (1.2 - (min(max(hardness, 130.0), 470.0) - 130) / 1700) * (3 / min(max(roughness, 3.0), 16.0)) ** 0.15
 
 
 def notch_sensitivity(notch: float, slip: float) -> float:

@@ -194,33 +194,26 @@ def flank_allowed(page: Sheet, rated: Rated, *, loaded: bool) -> None:
 
 def _films(page: Sheet, rated: Rated, softer: float, source: str) -> float:
     """Z_L, Z_v and Z_R of the softer gear, each 1 where its data are not given; their product."""
-    keys, pair = rated.keys, rated.pair
+    keys = rated.keys
     if None not in each(keys.flank_factor):
         return 1.0
     basic = iso6336.lubricant_coefficient(softer)
     viscosity, velocity, roughness = 1.0, 1.0, 1.0
     if keys.oil_viscosity is not None:
-        page.add("oil_viscosity", keys.oil_viscosity, given=True)
+        given_once(page, "oil_viscosity", keys.oil_viscosity)
         viscosity = iso6336.lubricant_factor(softer, keys.oil_viscosity)
     if keys.oil_viscosity is not None or rated.speed is not None:
         page.add("lubricant_coefficient", basic, "", source)
     formula = "{C_ZL} + 4 * (1 - {C_ZL}) / (1.2 + 134 / {nu_40})**2"
     page.add("lubricant_factor", viscosity, "" if keys.oil_viscosity is None else formula, source)
     if rated.speed is not None:
-        if "v" not in page.known:
-            speed_step(page, rated)
-            page.add("reference_speed", rated.speed, "pi * {n1} * {r1} / 30000", "ISO 6336-1, 4")
+        _speed(page, rated, rated.speed)
         velocity = iso6336.velocity_factor(softer, rated.speed)
     formula = "{C_ZL} + 0.02 + 2 * (0.98 - {C_ZL}) / sqrt(0.8 + 32 / {v})"
     page.add("circumferential_speed_factor", velocity, "" if rated.speed is None else formula, source)
-    one, two = each(keys.flank_roughness)
-    formula = ""
-    if one is not None and two is not None:
-        for index, height in enumerate((one, two), 1):
-            page.add("flank_roughness", height, gear=index, given=True)
-        curvature = rated.reduced_curvature
-        teeth = f"({{r_b2}} {'+' if pair.sign > 0 else '-'} {{r_b1}})"
-        page.add("reduced_curvature", curvature, f"{{r_b1}} * {{r_b2}} * tan({{alpha_w}}) / {teeth}", source)
+    formula, heights = "", _heights(page, rated, source)
+    if heights is not None:
+        one, two, curvature = *heights, rated.reduced_curvature
         mean = (one + two) / 2 * (10 / curvature) ** (1 / 3)
         page.add("reduced_roughness", mean, "({R_z1} + {R_z2}) / 2 * cbrt(10 / {rho_red})", source)
         power = iso6336.roughness_exponent(softer)
@@ -230,15 +223,55 @@ def _films(page: Sheet, rated: Rated, softer: float, source: str) -> float:
     return viscosity * velocity * roughness
 
 
+def _speed(page: Sheet, rated: Rated, speed: float) -> None:
+    """v, where the page has not told it yet."""
+    if "v" not in page.known:
+        speed_step(page, rated)
+        page.add("reference_speed", speed, "pi * {n1} * {r1} / 30000", "ISO 6336-1, 4")
+
+
+def _heights(page: Sheet, rated: Rated, source: str) -> tuple[float, float] | None:
+    """R_z of both flanks, told with rho_red, by which they count; None where they are not given."""
+    one, two = each(rated.keys.flank_roughness)
+    if one is None or two is None:
+        return None
+    for index, height in enumerate((one, two), 1):
+        given_once(page, "flank_roughness", height, index)
+    if "rho_red" not in page.known:
+        teeth = f"({{r_b2}} {'+' if rated.pair.sign > 0 else '-'} {{r_b1}})"
+        formula = f"{{r_b1}} * {{r_b2}} * tan({{alpha_w}}) / {teeth}"
+        page.add("reduced_curvature", rated.reduced_curvature, formula, source)
+    return one, two
+
+
 def _hardening(page: Sheet, rated: Rated, index: int) -> float:
-    """Z_W of a gear: given, or that of a soft one whose mate is hard."""
+    """Z_W of a gear: given, or that of a soft one whose mate is hard, and smooth where its R_zH is not known."""
     keys, source = rated.keys, f"{_PART_2}, 13"
     own, mate = rated.groups[index - 1], rated.groups[2 - index]
     given, hardness = each(keys.hardening_factor)[index - 1], each(keys.hardness)[index - 1]
     value, formula = 1.0 if given is None else given, ""
     if given is None and own and mate and not own.is_hard and mate.is_hard and hardness is not None:
-        value = iso6336.hardening_factor(hardness)
         given_once(page, "hardness", hardness, index)
+        roughness = _hardening_roughness(page, rated, index, source)
+        value = iso6336.hardening_factor(hardness, roughness)
         formula = "1.2 - ({x_H#} - 130) / 1700" if 130 <= hardness <= 470 else ""
+        if roughness > 3:
+            smooth = f"({formula})" if formula else "1.2" if hardness < 130 else "1"
+            formula = f"{smooth} * (3 / {'{R_zH}' if roughness <= 16 else '16'})**(0.15)"
     page.add("hardening_factor", value, formula, source, index, given=given is not None)
+    return value
+
+
+def _hardening_roughness(page: Sheet, rated: Rated, index: int, source: str) -> float:
+    """R_zH of a soft gear's hard mate, um: that of a smooth one where roughness, oil or speed is not given."""
+    viscosity, speed, heights = rated.keys.oil_viscosity, rated.speed, _heights(page, rated, source)
+    if viscosity is None or speed is None or heights is None:
+        return 3.0
+    given_once(page, "oil_viscosity", viscosity)
+    _speed(page, rated, speed)
+    hard, soft = heights[2 - index], heights[index - 1]
+    value = iso6336.hardening_roughness(hard, soft, rated.reduced_curvature, viscosity * speed)
+    ratio = f"({{R_z{3 - index}}} / {{R_z{index}}})**(0.66)"
+    formula = f"{{R_z{3 - index}}} * (10 / {{rho_red}})**(0.33) * {ratio} / ({{nu_40}} * {{v}} / 1500)**(0.33)"
+    page.add("hardening_roughness", value, formula, source)
     return value

@@ -62,6 +62,7 @@ _LONG = Meta(ge=0.85, le=1, description="Z_NT and Y_NT at 10^10 cycles")
 _VISCOSITY = size("mm2/s", "of the oil at 40 degrees, for Z_L", above=0, most=1e5)
 _YIELD = _both("of St, V, GTS and GGG, for Y_deltarelT", "MPa")
 _SURFACE = _both("Y_RrelT, by GOST Y_R; default: by root_roughness")
+_HARDENING = _both("Z_W; default: on a hard mate by hardness, and by flank_roughness with oil_viscosity and speed_rpm")
 _GRADIENT = _both("Y_deltarelT, by GOST Y_delta; default: by material or module")
 
 
@@ -92,12 +93,12 @@ class LoadKeys(DrivenKeys, kw_only=True):
     yield_strength: Annotated[_Both[_Stress], _YIELD] | None = None
     elastic_modulus: Annotated[_Both[_Modulus], _both("E")] = _MODULUS
     poisson_ratio: Annotated[_Both[_Poisson], _both("nu")] = _RATIO
-    flank_roughness: Annotated[_Both[_Roughness], _both("R_z of the flanks, for Z_R")] | None = None
+    flank_roughness: Annotated[_Both[_Roughness], _both("R_z of the flanks, for Z_R and Z_W")] | None = None
     root_roughness: Annotated[_Both[_Roughness], _both("R_z of the fillets, for Y_RrelT")] | None = None
     rim_thickness: Annotated[_Both[_Rim], _both("s_R, for Y_B")] | None = None
     flank_factor: Annotated[_Both[_Factor], _both("Z_L Z_v Z_R as one; by GOST Z_R Z_v")] | None = None
     contact_size_factor: Annotated[_Both[_Factor], _both("Z_X of ISO 6336-2")] = 1.0
-    hardening_factor: Annotated[_Both[_Factor], _both("Z_W; default: by hardness on a hard mate")] | None = None
+    hardening_factor: Annotated[_Both[_Factor], _HARDENING] | None = None
     surface_factor: Annotated[_Both[_Factor], _SURFACE] | None = None
     gradient_factor: Annotated[_Both[_Factor], _GRADIENT] | None = None
     reversing_factor: Annotated[_Both[_Factor], _both("Y_M, 0.7 of idlers; by GOST K_R")] = 1.0

@@ -220,6 +220,18 @@ def test_factors_of_soft_and_hard_flanks_by_hand() -> None:
     """ISO 6336-2: Z_W = 1.2 - (HB - 130) / 1700 of a soft gear on a hard one alone, C_ZL = 0.83 of the softer one."""
     mixed = values(*PAIR, 'material_group=["Eh","V alloy"]', "hardness=[700,240]", "oil_viscosity=100")["values"]
     assert mixed["hardening_factor"] == {"first": 1.0, "second": pytest.approx(1.2 - 110 / 1700)}
+    # ISO 6336-2: (3 / R_zH)^0.15 beside it, where roughness, oil and speed tell R_zH: 3 um or less smooth, 16 at most
+    curvature, oil = 30 * 61.5 / 91.5 * math.sin(math.radians(20)), (100 * math.pi / 1500) ** 0.33
+    run = 5 * (10 / curvature) ** 0.33 * (5 / 6) ** 0.66 / oil
+    for soft, groups, hardness in (
+        ("second", '["Eh","V alloy"]', "[700,240]"),
+        ("first", '["V alloy","Eh"]', "[240,700]"),
+    ):
+        for height, roughness in ((5, run), (1, 3), (40, 16)):
+            heights = [height, 6] if soft == "second" else [6, height]
+            typed = (f"material_group={groups}", f"hardness={hardness}", f"flank_roughness={heights}")
+            rough = values(*PAIR, *typed, "oil_viscosity=100", "speed_rpm=1000")["values"]["hardening_factor"]
+            assert rough[soft] == pytest.approx((1.2 - 110 / 1700) * (3 / roughness) ** 0.15)
     hard = values(*PAIR, 'material_group=["NV","Eh"]', "hardness=[450,700]")["values"]
     assert hard["hardening_factor"] == {"first": 1.0, "second": 1.0}
     for limits in ("[1300,800]", "[800,1300]"):
