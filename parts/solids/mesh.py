@@ -237,7 +237,11 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
         index.append(added(middle + body.loops[cap.outer].shift, body.loops[cap.outer].z) + np.arange(len(middle)))
         face = np.concatenate(index)[found]
         triangles.append(face if cap.up else face[:, ::-1])
-    return Mesh(np.round(np.concatenate(pieces), grid_decimals(body.section_reach())) + 0.0, np.concatenate(triangles))
+    vertices = np.concatenate(pieces)
+    # heights on a grid of their own: that of a wide thin plate is too coarse for what a float32 holds of its thickness
+    for axes, reach in ((slice(2), body.section_reach()), (2, float(np.abs(vertices[:, 2]).max()))):
+        vertices[:, axes] = np.round(vertices[:, axes], grid_decimals(reach)) + 0.0
+    return Mesh(vertices, np.concatenate(triangles))
 
 
 def _wall_triangles(count: int, lower: int, upper: int, rising: Flags | None = None) -> Triangles:

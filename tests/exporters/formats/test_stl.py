@@ -12,7 +12,7 @@ import pytest
 from exporters.production.build import build
 from exporters.production.plan import plan_build
 from parts.scene.load import scene_from_dict
-from tests.exporters.making import build_gear, check_deviation, face_chains, stl_triangles
+from tests.exporters.making import build_gear, check_deviation, face_chains, run, stl_triangles, write_scene
 from tests.exporters.outside import Gear, half_tooth
 
 REFERENCE = Gear(2, 23, bore=8)
@@ -117,3 +117,12 @@ def test_the_report_measures_edges_and_triangles_of_a_plate(tmp_path: Path) -> N
     assert (found["triangles"], found["shortest_edge"]) == (16, pytest.approx(20.0))
     assert found["volume"] == pytest.approx(2400.0)
     assert found["least_triangle_area"] == pytest.approx(40.0)
+
+
+def test_the_thickness_of_a_wide_plate_is_the_nearest_float32(tmp_path: Path) -> None:
+    # of seven digits, and four more than those of a grid by its width
+    keys = {"kind": "plate", "width": 2400.0, "height": 1200.0, "face_width": 3.3333333}
+    scene = write_scene(tmp_path / "s.toml", {"p": keys}, [{"format": "stl"}])
+    assert run("build", scene, "--out", tmp_path / "out") == 0
+    heights = stl_triangles(tmp_path / "out" / "s" / "p.stl").corners[:, :, 2]
+    assert np.all((heights == 0) | (heights == np.float32(3.3333333)))
