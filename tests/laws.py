@@ -9,13 +9,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import mpmath
 import numpy as np
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
+from geometry.base.record import replace
 from geometry.curves.curve import Carried, Curve, Mirrored, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.ellipse import EllipticArc
@@ -147,6 +148,27 @@ def check_derivatives_together(curve: Curve) -> None:
         assert np.abs(point - at).max() <= 1e-12 * np.abs(at).max()
         for found, wanted in ((first * step, (after - before) / 2), (second * step**2, after - 2 * at + before)):
             assert np.abs(found - wanted).max() <= 1e-4 * np.abs(wanted).max() + 1e-14 * np.abs(at).max()
+
+
+def check_alike(curve: Curve) -> None:
+    """Curves that call each other alike, asked together, are what each is alone: every number of one may differ."""
+    numbers = {name: getattr(curve, name) for name in getattr(curve, "__struct_fields__", ())}
+    others = [
+        replace(cast("Any", curve), **{name: 1.01 * value + 0.003})
+        for name, value in numbers.items() if isinstance(value, float | complex)
+    ]  # fmt: skip
+    groups: dict[object, list[Curve]] = {}
+    for one in (curve, curve.reversed(), *others):
+        held = (Carried(one, Placement2(turn, turn - 2j)) for turn in (0.7, -0.2))
+        for form in (one, Mirrored(one), Reversed(one), *held):
+            if form.alike is not None:
+                groups.setdefault(form.alike, []).append(form)
+    for group in groups.values():
+        t = np.array([parameters(form, 3)[1] for form in group])
+        together = group[0].together(group).taken(np.arange(len(group))).derivatives(t, 2)
+        alone = np.transpose([form.derivatives(at, 2) for form, at in zip(group, t, strict=True)])
+        for found, wanted in zip(together, alone, strict=True):
+            assert np.abs(found - wanted).max() <= 1e-12 * np.abs(wanted).max()
 
 
 def check_derivatives(curve: Curve) -> None:

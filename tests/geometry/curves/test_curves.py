@@ -102,6 +102,12 @@ def test_methods_are_vectorised(curve: Curve) -> None:
 
 
 @EVERY
+def test_together_they_are_what_they_are_alone(curve: Curve) -> None:
+    laws.check_derivatives_together(curve)
+    laws.check_alike(curve)
+
+
+@EVERY
 def test_empty_trim_is_refused(curve: Curve) -> None:
     middle = sum(curve.domain) / 2
     with pytest.raises(ValueError, match="empty parameter interval"):
@@ -258,6 +264,9 @@ def test_fillet_cusp_is_the_first_root_of_its_speed() -> None:
     assert abs(float(bent.speed(at))) <= 1e-10 * bent.tip_radius
     assert np.all(bent.speed(np.linspace(0, at - 1e-6, 1001)) > 0)
     assert float(bent.speed(at + 1e-6)) < 0
+    # of one number too the tangent is that of the way on, of either sign of the speed
+    beyond = np.linspace(at - 0.1, at + 0.1, 6)
+    assert [bent.tangent(u) for u in beyond.tolist()] == pytest.approx(bent.tangent(beyond), abs=1e-15)
 
 
 @examples(60)

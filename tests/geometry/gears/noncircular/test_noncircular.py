@@ -181,6 +181,7 @@ def test_curves_keep_the_laws() -> None:
     for made in (gear(ELLIPSE, 31), gear(OVAL, 40, mate=True, x=-0.2)):
         for curve in curves_of(made):
             laws.check_derivatives_together(curve)
+            laws.check_alike(curve)
             low, high = curve.domain
             t = np.linspace(low, high, 7)[1:-1]
             h = 2e-4 * (high - low)

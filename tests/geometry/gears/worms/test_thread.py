@@ -13,7 +13,7 @@ from geometry.base.record import replace
 from geometry.curves.line_arc import Arc
 from geometry.gears.worms.flank import FORMS
 from geometry.gears.worms.thread import Thread, thread_of
-from geometry.gears.worms.worm import Worm
+from geometry.gears.worms.worm import LEAST_LAND, Worm
 from tests.geometry.gears.worms.screwed import screwed
 
 
@@ -87,6 +87,9 @@ def test_a_worm_that_is_made_in_one_module_is_made_in_all(quotient: float, start
         (Worm(2.0, 6, 7.0, "ZK1", math.radians(25.0), wheel_diameter=1e6), 0.0, "diameter_quotient"),
         (Worm(5.0, 1, 10.0, fillet_coefficient=1.5), 0.0, "fillet_coefficient"),
         (Worm(5.0, 1, 10.0), 4.0, "tip_rounding"),
+        # the flank would end below the reference cylinder, or nowhere
+        (Worm(5.0, 1, 10.0, addendum_coefficient=0.2), 2.0, "tip_rounding"),
+        (Worm(5.0, 1, 10.0, addendum_coefficient=0.2), 60.0, "tip_rounding"),
     ],
 )
 def test_threads_without_room_are_refused_with_what_works(worm: Worm, rounding: float, key: str) -> None:
@@ -102,4 +105,6 @@ def test_threads_without_room_are_refused_with_what_works(worm: Worm, rounding: 
     else:
         made = thread_of(replace(worm, **{key: offered.value}), rounding)
     assert 2 * made.root_half < math.pi * made.worm.module
-    assert made.tip_half > 0
+    assert made.tip_half >= LEAST_LAND * made.worm.module
+    flank = dict(made.lines)["flank"]
+    assert flank.point(np.array(flank.domain)).real.max() > made.worm.reference_radius
