@@ -92,7 +92,7 @@ _BESIDE = 2.0
 class Laid(Record):
     """What is added to a view on a canvas of its own, its origin at 0, and the room that all takes, mm on paper.
 
-    The view's own curves are not on the canvas: they are fitted_each once it is known at which scale it is drawn.
+    The view's own curves are not on the canvas: they are fitted once it is known at which scale it is drawn.
     """
 
     view: View
