@@ -38,20 +38,30 @@ def speed_parameter(speed: float, teeth: int, ratio: float) -> float:
     return speed * teeth / 100 * ratio / math.hypot(1.0, ratio)
 
 
-def dynamic_factor(grade: int, parameter: float, line_load: float, overlap_ratio: float, *, helical: bool) -> float:
-    """K_v by method C of ISO 6336-1, 6; ``line_load`` K_A F_t / b, N/mm. Below eps_beta = 1 between both kinds.
+def dynamic_parts(grade: int, parameter: float, overlap_ratio: float, *, helical: bool) -> tuple[float, float]:
+    """K_v0 and w_0, N/mm, of K_v = K_v0 + w_0 / w by method C of ISO 6336-1, 6. Below eps_beta = 1 between both kinds.
 
     Beyond ``MOST_SPEED`` the method holds no more: as there.
     """
     parameter = min(parameter, MOST_SPEED)
-    third = 2.0 if parameter <= 0.2 else 2.071 - 0.357 * parameter
-
-    def of(kind: bool) -> float:
-        first, second = dynamic_coefficients(grade, helical=kind)
-        return 1 + (first / max(line_load, LEAST_LINE_LOAD) + second) * parameter * third
-
+    speed = parameter * (2.0 if parameter <= 0.2 else 2.071 - 0.357 * parameter)
     share = min(overlap_ratio, 1.0) if helical else 0.0
-    return of(False) + share * (of(True) - of(False)) if share else of(False)
+    ends = (dynamic_coefficients(grade, helical=kind) for kind in (False, True))
+    falling, bare = (one + share * (two - one) if share else one for one, two in zip(*ends, strict=True))
+    return 1 + bare * speed, falling * speed
+
+
+def dynamic_factor(parts: tuple[float, float], line_load: float) -> float:
+    """K_v of its parts; ``line_load``: w = K_A F_t / b, N/mm, taken as ``LEAST_LINE_LOAD`` below it."""
+    return parts[0] + parts[1] / max(line_load, LEAST_LINE_LOAD)
+
+
+def load_borne(most: float, parts: tuple[float, float], line_load: float) -> float:
+    """How many times a load of ``line_load`` may be carried where K_v times it may grow ``most`` times."""
+    (bare, falling), product = parts, most * line_load * dynamic_factor(parts, line_load)
+    if product > LEAST_LINE_LOAD * dynamic_factor(parts, LEAST_LINE_LOAD):
+        return (product - falling) / bare / line_load
+    return product / dynamic_factor(parts, 0.0) / line_load
 
 
 def face_exponent(width: float, heights: Sequence[float]) -> float:

@@ -100,7 +100,7 @@ def _rated(page: Sheet, rated: Rated, wanted: str) -> Sheet:
         gost_steps(page, rated, loaded=torque is not None)
     else:
         if torque is not None:
-            _load_factors(page, rated)
+            _load_factors(page, rated, torque)
         for steps in (flank_stress, flank_allowed, root_stress, root_allowed):
             steps(page, rated, loaded=torque is not None)
     _check_vain(page, rated, loaded=torque is not None)
@@ -189,12 +189,12 @@ def _load(page: Sheet, rated: Rated, torque: float) -> None:
         page.add("reference_speed", rated.speed, "pi * {n1} * {r1} / 30000", f"{_PART_1}, 4")
 
 
-def _load_factors(page: Sheet, rated: Rated) -> None:
+def _load_factors(page: Sheet, rated: Rated, torque: float) -> None:
     """K_A to K_Falpha: given, or by the simplest of the standard's own ways."""
     keys = rated.keys
     page.section("Factors of load")
     page.add("outer_load_factor", keys.application_factor, given=True)
-    _dynamic_factor(page, rated)
+    _dynamic_factor(page, rated, torque)
     page.add("face_load_factor", keys.face_load_factor, given=True)
     if keys.root_face_load_factor is None:
         heights = [abs(g.tip_radius - g.root_radius) for g in rated.gears]
@@ -213,17 +213,16 @@ def _load_factors(page: Sheet, rated: Rated) -> None:
         page.add("root_transverse_load_factor", own, given=True)
 
 
-def _dynamic_factor(page: Sheet, rated: Rated) -> None:
+def _dynamic_factor(page: Sheet, rated: Rated, torque: float) -> None:
     """K_v: given, by method C of grade and speed, else 1."""
-    keys, grade, speed = rated.keys, rated.keys.accuracy_grade, rated.speed
-    if keys.dynamic_factor is not None or grade is None or speed is None:
+    keys, grade, parameter, parts = rated.keys, rated.keys.accuracy_grade, rated.speed_parameter, rated.dynamic_parts
+    if grade is None or parameter is None or parts is None:
         page.add("speed_factor", keys.dynamic_factor or 1.0, given=True)
         return
     source, helical, overlap = f"{_PART_1}, 6", rated.helix > 0, rated.overlap
-    parameter = iso6336.speed_parameter(speed, rated.gears[0].number_of_teeth, rated.pair.gear_ratio)
     page.add("accuracy_grade", grade, given=True)
     page.add("speed_parameter", parameter, "{v} * {z1} / 100 * {u} / sqrt(1 + {u}**2)", source)
-    line = keys.application_factor * rated.value(page, "F_t") / rated.width
+    line = rated.line_load(torque)
     usual = max(line, iso6336.LEAST_LINE_LOAD)
     page.add("rated_line_load", usual, "{K_A} * {F_t} / {b}" if usual == line else "", source)
     third = "2" if parameter <= 0.2 else "(2.071 - 0.357 * {v_z})"
@@ -232,8 +231,7 @@ def _dynamic_factor(page: Sheet, rated: Rated) -> None:
         first, second = iso6336.dynamic_coefficients(grade, helical=helical)
         page.told(first_dynamic_coefficient=first, second_dynamic_coefficient=second)
         formula = f"1 + ({{K_1}} / {{w_A}} + {{K_2}}) * {{v_z}} * {third}"
-    value = iso6336.dynamic_factor(grade, parameter, line, overlap, helical=helical)
-    page.add("speed_factor", value, formula, source)
+    page.add("speed_factor", iso6336.dynamic_factor(parts, line), formula, source)
     if parameter > iso6336.MOST_SPEED:
         page.notes.append(finding_of(0, Finding("strength_speed", parameter, iso6336.MOST_SPEED)))
 
@@ -252,15 +250,33 @@ def _torques(page: Sheet, rated: Rated, torque: float) -> None:
             if f"{key}{index}" not in page.known:
                 continue
             safety = rated.value(page, f"{key}{index}")
-            found.append(torque * (safety / least) ** power)
-            raised = "**2" if power == 2 else ""
-            page.add(name, found[-1], f"{{T1}} * ({{{key}#}} / {{{key}min}}){raised}", gear=index)
+            raised = f"({{{key}#}} / {{{key}min}})" + ("**2" if power == 2 else "")
+            borne, formula = _borne(page, rated, torque, (safety / least) ** power, raised)
+            found.append(torque * borne)
+            page.add(name, found[-1], formula, gear=index)
             if safety < least:
                 page.notes.append(finding_of(index, Finding(f"strength_{name}", safety, least)))
     if found:
         page.add("allowed_torque", min(found))
     else:
         page.sections.pop()
+
+
+def _borne(page: Sheet, rated: Rated, torque: float, most: float, raised: str) -> tuple[float, str]:
+    """How many times the torque may be carried where the stress may grow ``most`` times with it, told as ``raised``.
+
+    With the formula of that torque. By method C K_v falls as the load grows, down to K_v0.
+    """
+    parts, line, least = rated.dynamic_parts, rated.line_load(torque), iso6336.LEAST_LINE_LOAD
+    borne = most if parts is None else iso6336.load_borne(most, parts, line)
+    if parts is None or max(line, line * borne) <= least:
+        return borne, f"{{T1}} * {raised}"
+    if "w_0" not in page.known:
+        page.add("dynamic_rest", parts[0], "", f"{_PART_1}, 6")
+        page.add("dynamic_line_load", parts[1], "", f"{_PART_1}, 6")
+    if line * borne <= least:
+        return borne, f"{{T1}} * {{K_v}} * {raised} / ({{K_v0}} + {{w_0}} / {least:g})"
+    return borne, f"{{T1}} * ({{K_v}} * {raised} - {{w_0}} * {{b}} / ({{K_A}} * {{F_t}})) / {{K_v0}}"
 
 
 def _summary(page: Sheet) -> None:

@@ -13,6 +13,7 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.strength import iso6336
 from geometry.gears.strength.materials import GROUPS, Group, Quality
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
@@ -193,6 +194,27 @@ class Rated(Record, dict=True):
         """v on the reference circles, m/s."""
         rpm = self.keys.speed_rpm
         return None if rpm is None else math.pi * rpm * self.pair.first.reference_radius / 30_000
+
+    @property
+    def speed_parameter(self) -> float | None:
+        """(v z_1 / 100) sqrt(u^2 / (1 + u^2)), where K_v is by method C; None: it is given, or no grade or speed is."""
+        keys, speed = self.keys, self.speed
+        graded = keys.accuracy_grade is not None and "accuracy_grade" not in self.unused
+        if keys.dynamic_factor is not None or not graded or speed is None:
+            return None
+        return iso6336.speed_parameter(speed, self.gears[0].number_of_teeth, self.pair.gear_ratio)
+
+    @property
+    def dynamic_parts(self) -> tuple[float, float] | None:
+        """K_v0 and w_0 of K_v by method C."""
+        grade, parameter = self.keys.accuracy_grade, self.speed_parameter
+        if grade is None or parameter is None:
+            return None
+        return iso6336.dynamic_parts(grade, parameter, self.overlap, helical=self.helix > 0)
+
+    def line_load(self, torque: float) -> float:
+        """K_A F_t / b, N/mm, of a torque on the first gear, N m."""
+        return self.keys.application_factor * self.force(torque) / self.width
 
     @property
     def gears(self) -> tuple[SpurGear | RingGear, SpurGear | RingGear]:

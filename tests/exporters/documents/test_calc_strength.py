@@ -122,12 +122,21 @@ def test_gost_form_factors_by_hand() -> None:
     assert found["whole_form_factor"]["first"] == pytest.approx(3.998 - 0.594 + 0.023)
 
 
-@pytest.mark.parametrize("method", ["ISO 6336", "ISO 6336:2006", "GOST 21354"])
-def test_the_torque_that_is_allowed_leaves_the_least_safety(method: str) -> None:
+# from 13 N/mm to 272, from 652 to 272 and to less than 100, up to which the dynamic factor is that at 100
+_FAST = ("speed_rpm=1500", "accuracy_grade=8")
+
+
+@pytest.mark.parametrize(
+    ("method", "typed"),
+    [("ISO 6336", ("torque=30",)), ("ISO 6336:2006", ("torque=30",)), ("GOST 21354", ("torque=30",)),
+     ("ISO 6336", ("torque=10", *_FAST)), ("ISO 6336", ("torque=500", *_FAST)),
+     ("ISO 6336", ("torque=500", "flank_factor=0.4", *_FAST)), ("GOST 21354", ("torque=10", *_FAST))],
+)  # fmt: skip
+def test_the_torque_that_is_allowed_leaves_the_least_safety(method: str, typed: tuple[str, ...]) -> None:
     keys = (*PAIR, f"method={method}", "contact_limit=1300", "bending_limit=400", "least_contact_safety=1.1",
             "least_bending_safety=1.4", "helix_angle_deg=12", "face_width=25")  # fmt: skip
-    allowed = values(*keys, "torque=30")["values"]["allowed_torque"]
-    found = values(*keys, f"torque={allowed!r}")["values"]
+    allowed = values(*keys, *typed)["values"]["allowed_torque"]
+    found = values(*keys, *typed[1:], f"torque={allowed!r}")["values"]
     shares = [found["contact_safety"][g] / 1.1 for g in ("first", "second")]
     shares += [found["bending_safety"][g] / 1.4 for g in ("first", "second")]
     assert min(shares) == pytest.approx(1, rel=1e-12)

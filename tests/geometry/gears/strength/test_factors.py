@@ -82,20 +82,18 @@ def test_the_dynamic_factor_by_hand() -> None:
     """Grade 6, 200 N/mm, v z_1 / 100 sqrt(u^2 / (1 + u^2)) = 1 m/s; halves of both kinds at an overlap of 0.5."""
     straight = 1 + (14.9 / 200 + 0.0193) * 1 * (2.071 - 0.357)
     helical = 1 + (13.3 / 200 + 0.0087) * 1 * (2.071 - 0.357)
-    found = [iso6336.dynamic_factor(6, 1.0, 200.0, eps, helical=eps > 0) for eps in (0.0, 0.5, 1.0, 2.0)]
+
+    def of(grade: int, parameter: float, line: float, overlap: float = 0.0) -> float:
+        return iso6336.dynamic_factor(iso6336.dynamic_parts(grade, parameter, overlap, helical=overlap > 0), line)
+
+    found = [of(6, 1.0, 200.0, eps) for eps in (0.0, 0.5, 1.0, 2.0)]
     assert found == pytest.approx([straight, (straight + helical) / 2, helical, helical], rel=1e-12)
     # below 100 N/mm as there, beyond the method's range as at its end, and both pieces of K_3 meet
-    assert iso6336.dynamic_factor(6, 1.0, 5.0, 0, helical=False) == iso6336.dynamic_factor(
-        6, 1.0, 100.0, 0, helical=False
-    )
-    far, end = (iso6336.dynamic_factor(6, v, 200.0, 0, helical=False) for v in (50.0, 3.0))
-    assert far == end
-    low, high = (iso6336.dynamic_factor(9, v, 200.0, 0, helical=False) for v in (0.2, 0.2 * ABOVE))
-    assert low == pytest.approx(high, rel=1e-4)
+    assert of(6, 1.0, 5.0) == of(6, 1.0, 100.0)
+    assert of(6, 50.0, 200.0) == of(6, 3.0, 200.0)
+    assert of(9, 0.2, 200.0) == pytest.approx(of(9, 0.2 * ABOVE, 200.0), rel=1e-4)
     # K_3 vanishes at twice 2.9 m/s: a factor by it is greatest near the end of its range
-    assert iso6336.dynamic_factor(6, 2.9, 200.0, 0, helical=False) > iso6336.dynamic_factor(
-        6, 2.5, 200.0, 0, helical=False
-    )
+    assert of(6, 2.9, 200.0) > of(6, 2.5, 200.0)
     assert iso6336.speed_parameter(10.0, 20, 3.0) == pytest.approx(2 * math.sqrt(0.9))
 
 
