@@ -214,6 +214,8 @@ def test_what_would_do_nothing_is_passed_over(tmp_path: Path) -> None:
 # parts in a form beside which some key does nothing, and that key: refused to each, of ``[defaults]`` passed over
 PHASES = [{"move": move, "angle_deg": 180.0, "law": "sine"} for move in ("rise", "return")]
 DISK = {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 10.0}
+POINTED = {k: v for k, v in DISK.items() if k != "follower_radius"} | {"phases": PHASES}
+UNSIZED = {k: v for k, v in POINTED.items() if k != "base_circle_radius"}
 BEVEL = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_number_of_teeth": 40}
 PITCHED = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 24}
 FORMS: list[tuple[dict[str, object], str, object]] = [
@@ -231,6 +233,8 @@ FORMS: list[tuple[dict[str, object], str, object]] = [
         "follower_radius",
         8.0,
     ),
+    ({**POINTED, "follower": "pointed"}, "follower_radius", 8.0),
+    ({**UNSIZED, "follower": "flat", "least_curvature_radius": 5.0}, "least_return_transmission_angle_deg", 50.0),
     (
         {
             **DISK,
@@ -249,6 +253,18 @@ FORMS: list[tuple[dict[str, object], str, object]] = [
         0.2,
     ),
     (PITCHED, "outer_diameter", 150.0),
+    (
+        {
+            "kind": "cam",
+            "follower": "flat",
+            "base_circle_radius": 60.0,
+            "swing_deg": 9.0,
+            "oscillating": {"centre_distance": 95.0},
+            "phases": PHASES,
+        },
+        "plate_diameter",
+        60.0,
+    ),
     ({**PITCHED, "internal": True, "outer_diameter": 150.0}, "bore_diameter", 6.0),
     ({"kind": "sprocket", "number_of_teeth": 17, "chain": "08B-1"}, "displaced", True),
     ({"kind": "follower", "end": "roller"}, "plate_diameter", 60.0),
@@ -268,11 +284,46 @@ def test_keys_of_other_forms_are_passed_over(form: dict[str, object], key: str, 
     assert refused.value.key == f"parts.a.{key}"
 
 
+# parts that say in another form what a key of ``[defaults]`` says
+TABLED = {k: v for k, v in DISK.items() if k != "lift"} | {
+    "motion_table": [[0.0, 0.0], [90.0, 5.0], [180.0, 10.0], [270.0, 5.0]]
+}
+CONTOURED = {**DISK, "contour": {"rise_angle_deg": 75.0}}
+GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
+WORM = {"kind": "worm", "module": 2.0, "thread_length": 40.0}
+OVAL = {"kind": "noncircular_gear", "module": 2.0, "number_of_teeth": 30, "centrode": "oval"}
+SPROCKET = {"kind": "sprocket", "number_of_teeth": 17}
+SHAFT = {"kind": "shaft", "steps": [{"diameter": 20.0, "length": 30.0}]}
+SAID: list[tuple[dict[str, object], str, object]] = [
+    ({**SHAFT, "centre_holes": {"diameter": 4.0}}, "bore_diameter", 6.0),
+    (TABLED, "phases", PHASES),
+    ({**DISK, "phases": PHASES}, "motion_table", TABLED["motion_table"]),
+    (CONTOURED, "phases", PHASES),
+    (CONTOURED, "motion_table", TABLED["motion_table"]),
+    ({**WORM, "lead_angle_deg": 6.0}, "diameter_quotient", 8.0),
+    ({**WORM, "diameter_quotient": 8.0}, "lead_angle_deg", 6.0),
+    ({**SPROCKET, "pitch": 12.7, "roller_diameter": 8.5, "inner_width": 7.75}, "chain", "08B-1"),
+    ({**SPROCKET, "chain": "08B-1"}, "pitch", 15.0),
+    ({**SPROCKET, "chain": "08B-1"}, "roller_diameter", 9.0),
+    ({**GEAR, "tip_rounding": 0.1}, "tip_chamfer", 0.1),
+    ({**GEAR, "tip_chamfer": 0.1}, "tip_rounding", 0.1),
+    ({**OVAL, "eccentricity": 0.3}, "axis_ratio", 1.4),
+    ({**OVAL, "axis_ratio": 1.4}, "eccentricity", 0.3),
+]
+
+
+@pytest.mark.parametrize(("form", "key", "value"), SAID)
+def test_what_a_part_says_in_another_form_needs_no_default(form: dict[str, object], key: str, value: object) -> None:
+    scene = scene_from_dict({"defaults": {key: value}, "parts": {"a": dict(form)}}, "s", "s")
+    make_parts(scene, "s")
+    assert scene.parts == scene_from_dict({"parts": {"a": dict(form)}}, "s", "s").parts
+    with pytest.raises(SceneError):
+        make_parts(scene_from_dict({"parts": {"a": {**form, key: value}}}, "s", "s"), "s")
+
+
 def test_a_motion_of_its_own_needs_no_default_of_another_form() -> None:
     """Phases for all cams were refused where one has a table."""
-    table = {**DISK, "motion_table": [[0.0, 0.0], [90.0, 5.0], [180.0, 10.0], [270.0, 5.0]]}
-    del table["lift"]
-    scene = {"defaults": {"phases": PHASES, "lift": 9.0}, "parts": {"a": table, "b": {**DISK}, "c": {**DISK}}}
+    scene = {"defaults": {"phases": PHASES, "lift": 9.0}, "parts": {"a": TABLED, "b": {**DISK}, "c": {**DISK}}}
     del scene["parts"]["b"]["lift"]
     made, _ = make_parts(scene_from_dict(scene, "s", "s"), "s")
     assert [made[name].thing.motion.lift for name in "abc"] == pytest.approx([10.0, 9.0, 10.0])

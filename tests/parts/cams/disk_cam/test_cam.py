@@ -226,7 +226,12 @@ def test_a_table_that_is_left_between_its_rows_is_told(follower: str) -> None:
     smooth = [(30.0 * k, 5 - 5 * math.cos(math.radians(30 * k))) for k in range(12)]
     own = {k: v for k, v in CAMS[follower].items() if k not in ("phases", "lift", "swing_deg")}
     top, place = highest(dwell)
-    for table, wanted in ((dwell, [(top - 10, place)]), (smooth, [])):
+    # below the lowest row too, and by a 250th of the lift
+    below = [(at, 10 - s) for at, s in dwell]
+    little = [(14.4 * k, 5 - 5 * math.cos(math.radians(14.4 * k))) for k in range(25)]
+    beside = highest(little)[0] - little[12][1]
+    for table, wanted in ((dwell, [(top - 10, place)]), (smooth, []), (below, [(top - 10, place)]),
+                          (little, [(beside, 180.0)])):  # fmt: skip
         found = [f for f in part_of(own | {"motion_table": [list(row) for row in table]}).findings
                  if f.code in ("lift_overshoots", "swing_overshoots")]  # fmt: skip
         assert [(f.value, f.limit) for f in found] == [pytest.approx(told, rel=1e-6) for told in wanted]

@@ -35,6 +35,9 @@ OUTLINES: dict[str, tuple[dict[str, Any], list[float]]] = {
     "tangent, mushroom": (ROLLER | {"follower": "mushroom", "follower_radius": 150.0, "contour": {"nose_radius": 10.0}},
                           [0.0, 10.0, 0.0]),
     "arcs": (FLAT | {"lift": 20.0, "contour": {"rise_angle_deg": 75.0, "nose_radius": 5.0}}, [82.42, 5.0, 82.42]),
+    # a face pushes along its normal, wherever its stem is
+    "arcs, aside": (FLAT | {"lift": 20.0, "follower_offset": 3.0,
+                            "contour": {"rise_angle_deg": 75.0, "nose_radius": 5.0}}, [82.42, 5.0, 82.42]),
     "arcs, roller": (ROLLER | {"contour": {"rise_angle_deg": 75.0, "flank_radius": 100.0}}, [100.0, 16.33, 100.0]),
     "hollow": (ROLLER | {"contour": {"rise_angle_deg": 75.0, "flank_radius": -200.0}}, [200.0, 25.27, 200.0]),
     "eccentric": (FLAT | {"contour": {"nose_radius": 38.75}}, [38.75]),
