@@ -23,30 +23,25 @@ Takes = Callable[[Table, str, object], bool]
 # tables that say their kind, and others
 _KINDS: dict[str, Mapping[str, Any]] = {"parts": KINDS, "assemblies": RECIPES, "mates": MATES}
 _PLAIN: dict[str, type[Struct]] = {"boards": BoardSpec, "beds": BedSpec}
+# keys of which a table has one
+_EITHER = (
+    ("bore_diameter", "bore"), ("bore_diameter", "centre_holes"), ("kerf", "offset"), ("lift", "swing_deg"),
+    ("normal_backlash", "circumferential_backlash"), ("phases", "motion_table"), ("phases", "contour"),
+    ("motion_table", "contour"), ("diameter_quotient", "lead_angle_deg"), ("tip_chamfer", "tip_rounding"),
+    ("axis_ratio", "eccentricity"), ("centre_distance", "module"), ("centre_distance", "crank_radius"),
+    ("profile_shift_coefficient", "working_centre_distance"), ("rounded_root", "cutter"), ("end_margin", "length"),
+    ("width", "shaft_diameter"), ("height", "shaft_diameter"),
+)  # fmt: skip
+# keys that stand in another one of a table too
+_WITHIN = {
+    "density": "material", "lift": "motion_table", "swing_deg": "motion_table", "chain": "pitch",
+    "pitch": "chain", "roller_diameter": "chain", "inner_width": "chain", "plate_height": "chain",
+    "transverse_pitch": "chain", "strands": "chain",
+}  # fmt: skip
 # keys that a table has already in another form
-INSTEAD = {
-    "bore_diameter": ("bore", "centre_holes"),
-    "bore": ("bore_diameter",),
-    "kerf": ("offset",),
-    "offset": ("kerf",),
-    "normal_backlash": ("circumferential_backlash",),
-    "circumferential_backlash": ("normal_backlash",),
-    "density": ("material",),
-    "lift": ("swing_deg", "motion_table"),
-    "swing_deg": ("lift", "motion_table"),
-    "phases": ("motion_table", "contour"),
-    "motion_table": ("phases", "contour"),
-    "diameter_quotient": ("lead_angle_deg",),
-    "lead_angle_deg": ("diameter_quotient",),
-    "chain": ("pitch",),
-    **dict.fromkeys(
-        ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse_pitch", "strands"), ("chain",)
-    ),
-    "tip_chamfer": ("tip_rounding",),
-    "tip_rounding": ("tip_chamfer",),
-    "axis_ratio": ("eccentricity",),
-    "eccentricity": ("axis_ratio",),
-}
+INSTEAD: dict[str, set[str]] = {}
+for _one, _other in (*_EITHER, *(pair[::-1] for pair in _EITHER), *_WITHIN.items()):
+    INSTEAD.setdefault(_one, set()).add(_other)
 # keys that say how thick a flat part is
 _THICK = {"parts": ("face_width",), "assemblies": ("face_width", "plate_thickness")}
 # keys that are not one for all

@@ -134,7 +134,7 @@ class FacedKeys(Protocol):
     plate_diameter: float | None
 
 
-def _idle_follower(keys: CamSpec) -> Iterator[ParameterError]:
+def idle_follower(keys: CamSpec) -> Iterator[ParameterError]:
     """What another follower has: a radius, an offset, an angle of its return."""
     if keys.follower in ("pointed", "flat"):
         yield from in_vain(keys, ("follower_radius",), "follower_has_no_radius", end=keys.follower)
@@ -152,7 +152,7 @@ def cam_of(keys: CamSpec) -> DiskCam:
 
     swing, base = keys.oscillating, keys.base_circle_radius
     check_idle(idle_stroke(keys, swing is not None, tabled=keys.motion_table is not None))
-    check_idle(_idle_follower(keys))
+    check_idle(idle_follower(keys))
     kind = FollowerKind(keys.follower)
     motion = motion_of(keys, swing is not None) if keys.contour is None else contour_motion(keys)
     try:
@@ -586,7 +586,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
             names = "least_transmission_angle_deg", "least_return_transmission_angle_deg"
             yield from in_vain(keys, names, other='follower = "roller"')
         yield from idle_motion(keys, keys.oscillating is not None)
-        yield from _idle_follower(keys)
+        yield from idle_follower(keys)
         yield from idle_plate(keys, plain=keys.oscillating is None)
 
     def thing(self, keys: CamSpec, others: Others) -> DiskCam:

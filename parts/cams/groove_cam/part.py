@@ -26,6 +26,7 @@ from parts.cams.disk_cam.part import (
     cam_circles,
     cam_of,
     cam_quantities,
+    idle_follower,
     larger_bases,
     motion_findings,
     not_kept,
@@ -255,8 +256,9 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
     data_table = "parts.cams.data_tables"
 
     def idle(self, keys: GrooveCamSpec, others: Others) -> Iterator[ParameterError]:
-        """What is of another motion."""
-        return idle_motion(keys, keys.oscillating is not None)
+        """What is of another motion, the offset of an arm."""
+        yield from idle_motion(keys, keys.oscillating is not None)
+        yield from idle_follower(_as_cam(keys))
 
     def thing(self, keys: GrooveCamSpec, others: Others) -> GrooveDisk:
         """The disk, checked to let its roller through."""

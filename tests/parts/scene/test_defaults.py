@@ -216,6 +216,18 @@ PHASES = [{"move": move, "angle_deg": 180.0, "law": "sine"} for move in ("rise",
 DISK = {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 10.0}
 POINTED = {k: v for k, v in DISK.items() if k != "follower_radius"} | {"phases": PHASES}
 UNSIZED = {k: v for k, v in POINTED.items() if k != "base_circle_radius"}
+BARREL = {"kind": "barrel_cam", "form": "groove", "outer_diameter": 60.0, "roller_diameter": 10.0, "groove_depth": 8.0,
+          "lift": 20.0, "phases": PHASES}  # fmt: skip
+LINKED = {"kind": "linkage_cam", "follower": "roller", "coupler_length": 43.0, "coupler_point": [6.0, 16.0],
+          "driven": {"member": "rocker", "pivot": [91.0, 26.0], "length": 58.0, "start_angle_deg": 167.0,
+                     "sense": "clockwise"},
+          "guide": {"member": "rocker", "pivot": [62.0, 124.0], "length": 68.0, "assembly": "left"},
+          "follower_radius": 6.0, "swing_deg": 24.0, "phases": PHASES}  # fmt: skip
+GROOVE = {"kind": "groove_cam", "follower_radius": 8.0, "groove_depth": 5.0, "phases": PHASES,
+          "base_circle_radius": 40.0}  # fmt: skip
+SWUNG = {**GROOVE, "swing_deg": 9.0, "oscillating": {"centre_distance": 95.0, "arm_length": 80.0}}
+WEDGE = {"kind": "wedge_cam", "follower": "roller", "phases": [{"move": "rise", "travel": 60.0, "law": "sine"}],
+         "base_height": 15.0, "lift": 20.0, "follower_radius": 6.0}  # fmt: skip
 BEVEL = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_number_of_teeth": 40}
 PITCHED = {"kind": "ratchet_wheel", "module": 5.0, "number_of_teeth": 24}
 FORMS: list[tuple[dict[str, object], str, object]] = [
@@ -269,6 +281,23 @@ FORMS: list[tuple[dict[str, object], str, object]] = [
     ({"kind": "sprocket", "number_of_teeth": 17, "chain": "08B-1"}, "displaced", True),
     ({"kind": "follower", "end": "roller"}, "plate_diameter", 60.0),
     ({"kind": "follower", "end": "roller"}, "tip_angle_deg", 50.0),
+    ({"kind": "follower", "end": "roller"}, "follower_radius", 5.0),
+    ({"kind": "follower_arm", "end": "roller", "arm_length": 60.0}, "tip_height", 9.0),
+    ({"kind": "follower_arm", "end": "roller", "arm_length": 60.0}, "face_offset", 2.0),
+    (BARREL, "web_thickness", 3.0),
+    (BARREL, "cone_angle_deg", 10.0),
+    ({**BARREL, "form": "end"}, "clearance", 0.1),
+    (LINKED, "plate_diameter", 60.0),
+    (LINKED, "lift", 9.0),
+    ({**GROOVE, "lift": 10.0}, "swing_deg", 9.0),
+    (SWUNG, "lift", 9.0),
+    (SWUNG, "follower_offset", 4.0),
+    (WEDGE, "swing_deg", 9.0),
+    ({"kind": "sprocket", "number_of_teeth": 17, "chain": "08B-1", "tooth_form": "GOST 591"}, "form", 0.5),
+    ({**BEVEL, "spiral_angle_deg": 30.0, "tooth_line": "straight"}, "cutter_radius", 60.0),
+    ({"kind": "worm", "module": 2.0, "thread_length": 40.0, "thread_ends": "run_out"}, "end_angle_deg", 60.0),
+    ({"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "thinning_method": "deeper_cut"}, "crowning", 0.02),
+    ({**PITCHED, "internal": True, "outer_diameter": 150.0}, "hub", {"diameter": 20.0, "below": 3.0}),
 ]
 
 
@@ -292,6 +321,11 @@ CONTOURED = {**DISK, "contour": {"rise_angle_deg": 75.0}}
 GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}
 WORM = {"kind": "worm", "module": 2.0, "thread_length": 40.0}
 OVAL = {"kind": "noncircular_gear", "module": 2.0, "number_of_teeth": 30, "centrode": "oval"}
+DRIVEN = {k: v for k, v in OVAL.items() if k != "module"} | {"axis_ratio": 1.4}
+GENEVA = {"kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 60.0}
+WHEEL = {"kind": "worm_wheel", "module": 2.0, "number_of_teeth": 30}
+RING = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 40}
+KEY = {"kind": "key", "length": 20.0}
 SPROCKET = {"kind": "sprocket", "number_of_teeth": 17}
 SHAFT = {"kind": "shaft", "steps": [{"diameter": 20.0, "length": 30.0}]}
 SAID: list[tuple[dict[str, object], str, object]] = [
@@ -307,6 +341,17 @@ SAID: list[tuple[dict[str, object], str, object]] = [
     ({**SPROCKET, "chain": "08B-1"}, "roller_diameter", 9.0),
     ({**GEAR, "tip_rounding": 0.1}, "tip_chamfer", 0.1),
     ({**GEAR, "tip_chamfer": 0.1}, "tip_rounding", 0.1),
+    ({**OVAL, "axis_ratio": 1.4}, "centre_distance", 80.0),
+    ({**DRIVEN, "centre_distance": 80.0}, "module", 2.0),
+    (GENEVA, "crank_radius", 25.0),
+    ({**SHAFT, "bore_diameter": 6.0}, "centre_holes", {"diameter": 4.0}),
+    ({**DISK, "phases": PHASES}, "contour", {"rise_angle_deg": 75.0}),
+    ({**WHEEL, "working_centre_distance": 41.0}, "profile_shift_coefficient", 0.1),
+    ({**WHEEL, "profile_shift_coefficient": 0.1}, "working_centre_distance", 41.0),
+    ({**RING, "rounded_root": {}}, "cutter", {"number_of_teeth": 20}),
+    ({**BARREL, "length": 60.0}, "end_margin", 4.0),
+    ({**KEY, "shaft_diameter": 20.0}, "width", 5.0),
+    ({**KEY, "width": 6.0, "height": 6.0}, "shaft_diameter", 20.0),
     ({**OVAL, "eccentricity": 0.3}, "axis_ratio", 1.4),
     ({**OVAL, "axis_ratio": 1.4}, "eccentricity", 0.3),
 ]
