@@ -62,6 +62,11 @@ class Group(Record):
         """Whether its flanks are hardened."""
         return self.name in ("Eh", "IF", "NT", "NV", "NV nitrocarburized")
 
+    @property
+    def is_soft_steel(self) -> bool:
+        """Whether its flanks grow harder on a hard mate: of structural or through hardened steel; ISO 6336-2, 13."""
+        return self.name in ("St", "V", "V alloy")
+
     def contact_knots(self, *, pits: bool) -> Knots:
         """Life in contact; ``pits``: some may be."""
         return _CONTACT["pitted" if pits and self.contact_life == "hard" else self.contact_life]

@@ -245,12 +245,12 @@ def _heights(page: Sheet, rated: Rated, source: str) -> tuple[float, float] | No
 
 
 def _hardening(page: Sheet, rated: Rated, index: int) -> float:
-    """Z_W of a gear: given, or that of a soft one whose mate is hard, and smooth where its R_zH is not known."""
+    """Z_W of a gear: given, or that of soft steel whose mate is hard, and smooth where its R_zH is not known."""
     keys, source = rated.keys, f"{_PART_2}, 13"
     own, mate = rated.groups[index - 1], rated.groups[2 - index]
     given, hardness = each(keys.hardening_factor)[index - 1], each(keys.hardness)[index - 1]
     value, formula = 1.0 if given is None else given, ""
-    if given is None and own and mate and not own.is_hard and mate.is_hard and hardness is not None:
+    if given is None and own and mate and own.is_soft_steel and mate.is_hard and hardness is not None:
         given_once(page, "hardness", hardness, index)
         roughness = _hardening_roughness(page, rated, index, source)
         value = iso6336.hardening_factor(hardness, roughness)

@@ -241,8 +241,10 @@ def test_factors_of_soft_and_hard_flanks_by_hand() -> None:
             typed = (f"material_group={groups}", f"hardness={hardness}", f"flank_roughness={heights}")
             rough = values(*PAIR, *typed, "oil_viscosity=100", "speed_rpm=1000")["values"]["hardening_factor"]
             assert rough[soft] == pytest.approx((1.2 - 110 / 1700) * (3 / roughness) ** 0.15)
-    hard = values(*PAIR, 'material_group=["NV","Eh"]', "hardness=[450,700]")["values"]
-    assert hard["hardening_factor"] == {"first": 1.0, "second": 1.0}
+    # no hard flank grows harder, nor one of iron
+    for groups, hardness in (('["NV","Eh"]', "[450,700]"), ('["Eh","GG"]', "[700,200]"), ('["GGG","Eh"]', "[200,700]")):
+        still = values(*PAIR, f"material_group={groups}", f"hardness={hardness}")["values"]
+        assert still["hardening_factor"] == {"first": 1.0, "second": 1.0}
     for limits in ("[1300,800]", "[800,1300]"):
         assert values(*PAIR, f"contact_limit={limits}", "oil_viscosity=100")["values"]["lubricant_coefficient"] == 0.83
     # by GOST 21354-87 Z_v = 0.85 v^0.1 of soft flanks; 10 m/s on a radius of 30 mm
