@@ -45,6 +45,7 @@ _BLANK = "________"
 
 _TEETH = "numbers of teeth: of wheels 1, 2, … in a list, or by name, as teeth.2'=20; a worm's starts"
 _COUNTED = "turns of the driven link counted for one of the driver, below 0 the other way"
+_CARRIERS = Meta(description="wheels that are satellites of each carrier: wheel 2 of H is carriers.H=2")
 _MESHES = "wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ, + or - of bevels"
 _Teeth = Annotated[int, Meta(ge=1)]
 
@@ -60,7 +61,7 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
     teeth: Annotated[list[_Teeth] | dict[str, _Teeth], Meta(description=_TEETH)] | None = None
     meshes: Annotated[str, Meta(description=_MESHES)] = ""
     shafts: Annotated[str, Meta(description="wheels of one shaft, as 2-3, H-5; 2 and 2' need no such word")] = ""
-    carriers: Annotated[dict[str, Name], Meta(description="satellites of each carrier, as carriers.H=2")] = {}
+    carriers: Annotated[dict[str, Name], _CARRIERS] = {}
     held: Annotated[Name, Meta(description="held wheels or carriers, with commas between them")] = ""
     driver: Annotated[Name, Meta(description="driving link; default: the first wheel")] = ""
     driven: Annotated[Name, Meta(description="driven link; default: the last one that is not held")] = ""
