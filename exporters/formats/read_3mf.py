@@ -83,7 +83,12 @@ class _Reader(ElementTree.TreeBuilder):
         return _NOTHING
 
     def end(self, tag: str) -> ElementTree.Element:
-        return _NOTHING if tag.removeprefix(_CORE) in _MANY else super().end(tag)
+        name = tag.removeprefix(_CORE)
+        if name in _MANY:
+            return _NOTHING
+        if name == "object":
+            self.own = None
+        return super().end(tag)
 
 
 class _Base(NamedTuple):

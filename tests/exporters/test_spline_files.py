@@ -162,6 +162,10 @@ def test_the_chamfer_of_a_splined_step_goes_where_the_refusal_says() -> None:
         make_parts(
             scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": [toothed | {"chamfer": 1.0}]}}}, "t", "t"), "t"
         )
+    # of a fit with play they are thinner by twice as much as it is told
+    loose = toothed | {"spline": {"shape": "spline", "size": "6x23x26", "clearance": 0.2}, "chamfer": 1.0}
+    with pytest.raises(SceneError, match=re.escape("thinner than its roots, 22.6 mm")):
+        make_parts(scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": [loose]}}}, "t", "t"), "t")
     sheet = {"format": "svg", "purpose": "part", "drawing": {"requirements": ["Chamfer of the teeth 1 x 45."]}}
     told = {"parts": {"a": {"kind": "shaft", "steps": [pilot, toothed]}}, "exports": [sheet]}
     made, *_ = make_parts(scene_from_dict(told, "t", "t"), "t")

@@ -365,11 +365,13 @@ OF_LIMITS = ("accuracy_grade=7", "load_cycles=1e5", "oil_viscosity=100", "materi
 
 
 @pytest.mark.parametrize("method", ["method=ISO 6336", GOST])
-@pytest.mark.parametrize("given", [(), ("contact_limit=900",), ("bending_limit=300",)])
+@pytest.mark.parametrize(
+    "given", [(), ("contact_limit=900",), ("bending_limit=300",), ("contact_limit=900", "load_cycles=2e5")]
+)
 def test_a_key_that_changes_nothing_is_refused(given: tuple[str, ...], method: str) -> None:
     """Of a life, a hardness or an oil without limits nothing was printed, and nobody said so."""
     plain, _ = made([*PAIR, method, *given])
-    for key in OF_LIMITS:
+    for key in (key for key in OF_LIMITS if not any(one.startswith(key.partition("=")[0]) for one in given)):
         page, refusal = made([*PAIR, method, *given, key])
         if refusal is not None:
             assert refusal.code == "needs_other"
@@ -377,6 +379,14 @@ def test_a_key_that_changes_nothing_is_refused(given: tuple[str, ...], method: s
         elif "speed" not in key or method != GOST:
             assert page is not None
             assert (page.known, page.notes) != (plain.known, plain.notes), key
+
+
+def test_a_key_is_told_what_it_needs_beside_the_others() -> None:
+    """A grade acts by the speed where there is a load; a speed without one by a life in hours."""
+    refusal = made([*PAIR, "torque=10", "contact_limit=900", "accuracy_grade=7"])[1]
+    assert refusal is not None
+    assert (refusal.key, refusal.numbers["other"]) == ("strength.accuracy_grade", "speed_rpm")
+    assert made([*PAIR, "bending_limit=300", "life_hours=1000", "speed_rpm=300"])[1] is None
 
 
 def test_the_command_tells_one_line(capsys: pytest.CaptureFixture[str]) -> None:

@@ -414,6 +414,23 @@ def test_objects_and_items_of_a_3mf_are_the_same_at_every_writing(tmp_path: Path
         assert found == {str(uuid.uuid5(uuid.NAMESPACE_URL, f"higherpair/{root}")) for root in roots}
 
 
+@pytest.mark.parametrize(
+    ("there", "instead", "why"),
+    [
+        ("<vertices>", "<vertices><vertex x='0' y='0' z='0' w='1'/>", "has w, which is not read here"),
+        ("</vertices>", "</vertices><slices/>", "holds <slices>, which is not read here"),
+        ("<build", "<vertex x='0' y='0' z='0'/><build", "stands in no object"),
+    ],
+)
+def test_what_a_3mf_has_beside_its_meshes_is_not_passed_over(
+    there: str, instead: str, why: str, tmp_path: Path
+) -> None:
+    write_3mf(tmp_path / "m.3mf", MeshPart("m", MESH, None))
+    in_model(lambda text: text.replace(there, instead, 1))(tmp_path / "m.3mf")
+    with pytest.raises(ReadError, match=why):
+        read_3mf(tmp_path / "m.3mf")
+
+
 def test_reading_a_3mf_keeps_its_numbers_alone(tmp_path: Path) -> None:
     """Each vertex and triangle was an element of a tree: a gear at the finest tolerance told took 2.6 GB."""
     a, b = np.divmod(np.arange(15_000), 150)

@@ -98,4 +98,8 @@ def test_lines_are_told_apart_and_each_stands_in_the_key(tmp_path: Path) -> None
     )
     ends = [x + _LETTER * len(text) for x, text in below]
     assert all(end < x for end, (x, _) in zip(ends, below[1:], strict=False))
+    # points of lines of one colour differ too, and the longest name is not cut off
+    assert len({e.attrib["style"] for tag, e in every if tag == "circle"}) == 16
+    names = [float(e.attrib["x"]) + _LETTER * len(e.text) for tag, e in every if (e.text or "").startswith("run")]
+    assert max(names) < float(every[0][1].attrib["width"])
     assert ends[-1] < min(float(e.attrib["d"][1:].split(",")[0]) for tag, e in every if tag == "path")

@@ -56,6 +56,10 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
      "at_least", {}),
     (GROOVED | {"centre_holes": {"diameter": 2.0, "mouth": 15.0}}, f"{GR}.diameter", "groove_into_centre_hole",
      15.0 - 20.0 * math.tan(math.pi / 6), "at_least", {}),
+    # and from 10 to 12 of the last 40 mm, seen from the upper end
+    (steps(step(28.0, 25.0), step(20.0, 40.0, grooves=[GROOVE | {"at": 28.0}])) | {
+        "centre_holes": {"diameter": 2.0, "mouth": 15.0}}, "steps[2].grooves[1].diameter", "groove_into_centre_hole",
+     15.0 - 20.0 * math.tan(math.pi / 6), "at_least", {}),
     # a keyway from 5 to 25 of 65 mm: its floor above the cone at its lower end
     (KEYED | {"centre_holes": {"diameter": 2.0, "mouth": 15.0}}, f"{WAY}.depth", "groove_into_centre_hole",
      2.5 + 5.0 * math.tan(math.pi / 6), "at_most", {}),

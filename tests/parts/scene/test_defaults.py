@@ -214,6 +214,11 @@ def test_what_would_do_nothing_is_passed_over(tmp_path: Path) -> None:
 # parts in a form beside which some key does nothing, and that key: refused to each, of ``[defaults]`` passed over
 PHASES = [{"move": move, "angle_deg": 180.0, "law": "sine"} for move in ("rise", "return")]
 DISK = {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 10.0}
+SWINGING = {k: v for k, v in DISK.items() if k != "lift"} | {
+    "swing_deg": 9.0,
+    "oscillating": {"centre_distance": 95.0, "arm_length": 80.0},
+    "phases": PHASES,
+}
 POINTED = {k: v for k, v in DISK.items() if k != "follower_radius"} | {"phases": PHASES}
 UNSIZED = {k: v for k, v in POINTED.items() if k != "base_circle_radius"}
 BARREL = {"kind": "barrel_cam", "form": "groove", "outer_diameter": 60.0, "roller_diameter": 10.0, "groove_depth": 8.0,
@@ -247,17 +252,7 @@ FORMS: list[tuple[dict[str, object], str, object]] = [
     ),
     ({**POINTED, "follower": "pointed"}, "follower_radius", 8.0),
     ({**UNSIZED, "follower": "flat", "least_curvature_radius": 5.0}, "least_return_transmission_angle_deg", 50.0),
-    (
-        {
-            **DISK,
-            "lift": 0.0,
-            "swing_deg": 9.0,
-            "oscillating": {"centre_distance": 95.0, "arm_length": 80.0},
-            "phases": PHASES,
-        },
-        "follower_offset",
-        4.0,
-    ),
+    (SWINGING, "follower_offset", 4.0),
     ({"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "helix_angle_deg": 20.0}, "crowning", 0.02),
     (
         {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 30, "flanges": {"diameter": 22.0}},
@@ -372,6 +367,26 @@ def test_a_motion_of_its_own_needs_no_default_of_another_form() -> None:
     del scene["parts"]["b"]["lift"]
     made, _ = make_parts(scene_from_dict(scene, "s", "s"), "s")
     assert [made[name].thing.motion.lift for name in "abc"] == pytest.approx([10.0, 9.0, 10.0])
+
+
+def test_of_a_lift_and_a_swing_for_all_each_follower_takes_its_own() -> None:
+    own = {"slide": GROOVE, "arm": SWUNG, "wedge": WEDGE, "cam": {**DISK, "phases": PHASES}}
+    parts = {name: {k: v for k, v in keys.items() if k not in ("lift", "swing_deg")} for name, keys in own.items()}
+    made = scene_from_dict({"defaults": {"lift": 10.0, "swing_deg": 9.0}, "parts": parts}, "s", "s").parts
+    assert {name: (keys.lift, keys.swing_deg) for name, keys in made.items()} == {
+        "slide": (10.0, 0.0),
+        "arm": (0.0, 9.0),
+        "wedge": (10.0, 0.0),
+        "cam": (10.0, 0.0),
+    }
+
+
+def test_rollers_of_a_second_cam_stand_as_its_first_one_moves_its_own() -> None:
+    first = {**DISK, "phases": PHASES}
+    for owner, key, value in ((first, "roller_angle_deg", 150.0), (SWINGING, "roller_distance", 130.0)):
+        parts = {"first": owner, "second": {"kind": "conjugate_cam", "of": "first"}}
+        scene = scene_from_dict({"defaults": {key: value}, "parts": parts}, "s", "s")
+        assert getattr(scene.parts["second"], key) is None
 
 
 def test_a_position_is_not_one_for_all() -> None:

@@ -845,6 +845,9 @@ def test_a_kind_that_is_no_text_is_unknown(kind: object) -> None:
         ("шестерня", ("ring_gear", "spur_gear"), "spur_gear"),
         ("конічне колесо", ("spur_gear", "bevel_gear"), "bevel_gear"),
         ("абищо", ("spur_gear", "bevel_gear"), None),
+        # it stands amid what is told of diameters; and a number of teeth is no number
+        ("підріз", ("diameter", "module"), None),
+        ("ролик стола", ("role", "module"), None),
     ],
 )
 def test_words_of_other_languages_lead_to_ours(word: str, known: tuple[str, ...], ours: str | None) -> None:

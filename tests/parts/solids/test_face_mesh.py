@@ -265,6 +265,17 @@ def test_solids_of_scenes_are_closed_and_as_large_as_their_bodies(scene: str) ->
         assert held(solid, 0.05) == pytest.approx(exact.volume, abs=0.05 * surface_area(solid))
 
 
+def test_no_more_triangles_are_counted_than_are_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Too many would refuse a worm that has room; of too few the refusal would come late."""
+    keys = {"kind": "worm", "module": 2.0, "thread_length": 6.0}
+    body = make_parts(scene_from_dict({"parts": {"worm": keys}}, "s", "s"), "s")[0]["worm"].body(0.0)
+    told: list[int] = []
+    monkeypatch.setattr("parts.solids.face_mesh._FINE", 1.0)
+    monkeypatch.setattr("parts.solids.face_mesh._check_count", lambda _, count: told.append(count))
+    made = len(faced_mesh(body, 0.01).geometry)
+    assert made / 5 < told[0] <= made
+
+
 def test_too_many_triangles_are_counted_before_any_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a worm far too fine most were made first: it was refused after 16 s."""
     keys = {"kind": "worm", "module": 2.0, "thread_length": 40.0}
