@@ -212,27 +212,31 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
         "the worst place for drive I is where beta is 0, for drive II all are alike; the worst direction is that in "
         "which the drive moves the platform: for II across O2O3"
     )
-    if load:
-        _statics(page, table, load)
+    if load or more:
+        _statics(page, keys, load, more / table.ratio)
     page.note("friction of the worms' flanks from f_s on locks them; the thesis has neither friction nor losses")
     if max(a - h for a, h in zip(asked, held, strict=True)) > 1e-12 * max(held):
         page.note("the worms do not hold this load everywhere: at most {limit:.6g} N", limit=min(most))
     return load, held if keys.held else asked
 
 
-def _statics(page: Sheet, table: TwoDisk, load: float) -> None:
-    """At the worst place, beta = 0, in the worst direction: what the layer's statics of trains gives for the worms."""
+def _statics(page: Sheet, keys: LoadKeys, load: float, turning: float) -> None:
+    """At the worst place, beta = 0, in the worst direction: what the layer's statics of trains gives for the worms.
+
+    ``turning``: what a moment on the platform asks of disk 3 against disk 2, N m, in the worse sense.
+    """
+    table = keys.table
     one, _ = (complex(way) for way in table.drive_jacobian(0.0, 0.0))
     force = load * one / abs(one)
     first, second = 1j * table.arms[0], complex(table.forward(0.0, 0.0)) - 1j * table.arms[0]
     # turning disk 2 moves O2, turning disk 3 moves O3 about it
-    loads = {
-        link: Fraction((force.conjugate() * 1j * arm).real / 1000)
-        for link, arm in (("disk_2", first), ("disk_3", second))
-    }
+    on_2, on_3 = ((force.conjugate() * 1j * arm).real / 1000 for arm in (first, second))
+    turning = math.copysign(turning, on_3)
+    loads = {"disk_2": Fraction(on_2 - turning), "disk_3": Fraction(on_3 + turning)}
     state = statics(table.mechanism("idlers"), {"worm_1": Fraction(1), "worm_2": Fraction(1)}, loads)[0]
     for name, worm in (("I", "worm_1"), ("II", "worm_2")):
-        page.add("worm_torque_asked", abs(float(state.torques[worm])), symbol=f"T_1{name}", of=DRIVES[name])
+        asked = abs(float(state.torques[worm])) / keys.efficiency
+        page.add("worm_torque_asked", asked, symbol=f"T_1{name}", of=DRIVES[name])
     mesh = next(flow for flow in state.flows if flow.mesh.kind == "internal")
     page.add("pinion_torque", abs(float(mesh.torques[0])), symbol="T_11")
 

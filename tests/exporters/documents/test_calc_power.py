@@ -383,6 +383,17 @@ def test_the_load_that_both_worms_hold_anywhere(module: dict[str, Any]) -> None:
     assert step(module, "worm_torque_asked", "drive II")["value"] == pytest.approx(3.5, rel=1e-12)
     assert step(module, "worm_torque_asked", "drive I")["value"] == pytest.approx(371 / 128, rel=1e-12)
     assert module["values"]["pinion_torque"] == pytest.approx(371 * 2 / 3, rel=1e-12)
+    # friction leaves the load that all of the worms' torque holds; a moment that wheels pass on is asked of them too
+    for typed in (("friction_coefficient=0.05",), ("orientation=thesis", "force_x=600", "force_y=0", "moment=40")):
+        other = calculated("power-module", *typed)
+        efficiency = other["values"].get("worm_efficiency", 1.0)
+        for drive, ratio in (("drive I", 128), ("drive II", 106)):
+            asked = step(other, "load_torque", drive)["value"] / ratio / efficiency
+            assert step(other, "worm_torque_asked", drive)["value"] == pytest.approx(asked, rel=1e-9)
+            row = carried(other, "load_worst", drive, "torque on the worm")
+            assert row["at most"] == pytest.approx(asked, rel=1e-9)
+        pinion = step(other, "load_torque", "drive II")["value"] / 1.5
+        assert other["values"]["pinion_torque"] == pytest.approx(pinion, rel=1e-9)
     more = calculated("power-module", "load=5000")
     assert any("do not hold" in note for note in more["notes"])
     assert step(more, "wheel_torque", "drive II")["value"] == pytest.approx(371)
