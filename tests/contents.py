@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from parts.base.fields import defaults_of
+from parts.base.fields import given_keys
 from parts.base.texts import words
 from parts.pages.page import Sheet
 from parts.scene.files import built_in_scenes
@@ -107,8 +107,7 @@ def _tag(spec: Any) -> str:
 
 def _given(spec: Any) -> list[str]:
     """Keys whose values are not those that they have when nothing is said."""
-    plain = defaults_of(type(spec))
-    return [key for key, usual in plain.items() if (value := getattr(spec, key)) != usual and value not in ([], {})]
+    return [key for key, value in given_keys(spec).items() if value not in ([], {})]
 
 
 def _line(head: str, names: Iterable[str]) -> Iterator[str]:

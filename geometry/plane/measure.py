@@ -409,7 +409,7 @@ def _projected(points: Complex, group: _Alike, which: NDArrayInt, start: NDArray
     if isinstance(curve, Arc):
         inside = curve.swept(points) <= group.parameters[which, -1]
         radial = np.abs(np.abs(points - curve.centre) - curve.radius)
-        return np.where(inside & (points != curve.centre), radial, np.abs(ends[which] - points[:, None]).min(1))
+        return np.where(inside, radial, np.abs(ends[which] - points[:, None]).min(1))
     found = np.abs(curve.point(_feet(points, group, which, start, newton=newton)) - points)
     # where a curve is shut, the nearest sample is its first and its last one: the foot may lie on either side
     shut = (np.abs(ends[:, 1] - ends[:, 0]) < _SHUT)[which]

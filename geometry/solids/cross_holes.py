@@ -147,7 +147,7 @@ def check_cross_holes(
 
 
 def _check_apart(angles: Sequence[float], half: Sequence[float]) -> None:
-    """Refuse holes whose mouths, of ``half`` an angle and a wall, meet: the spacing of neighbours, else their count."""
+    """Refuse holes whose mouths meet: the spacing of two, else their count; ``half`` of each with a wall, rad."""
     for j, i in itertools.product(range(len(angles)), repeat=2):
         given = angles[j] - angles[i]
         turned, least = math.remainder(given, math.tau), half[i] + half[j]

@@ -15,6 +15,12 @@ def fields_of(kind: type[Struct]) -> tuple[FieldInfo, ...]:
     return fields(kind)
 
 
+def given_keys(keys: Struct) -> dict[str, Any]:
+    """The keys that are not as they are by default, and what they are."""
+    usual = defaults_of(type(keys))
+    return {name: value for name in usual if (value := getattr(keys, name)) != usual[name]}
+
+
 @lru_cache(maxsize=256)
 def defaults_of(kind: type[Struct]) -> dict[str, Any]:
     """What each key of a table is by default."""

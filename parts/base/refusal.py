@@ -9,7 +9,7 @@ from typing import NamedTuple
 from msgspec import Struct
 
 from geometry.base.errors import TOLD, Curable, Cure, Nearest, ParameterError, format_value
-from parts.base.fields import defaults_of
+from parts.base.fields import given_keys
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
@@ -247,8 +247,7 @@ def _short(text: str, most: int) -> str:
 def _typed(value: object) -> str:
     """A value as TOML has it on one line."""
     if isinstance(value, Struct):
-        usual = defaults_of(type(value))
-        value = {name: item for name in usual if (item := getattr(value, name)) != usual[name]}
+        value = given_keys(value)
     if isinstance(value, dict):
         return f"{{ {', '.join(f'{key} = {_typed(item)}' for key, item in value.items())} }}"
     return f"[{', '.join(map(_typed, value))}]" if isinstance(value, list) else format_value(value)

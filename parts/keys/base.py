@@ -13,7 +13,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.tolerance import LEAST_LENGTH
-from parts.base.fields import defaults_of
+from parts.base.fields import defaults_of, given_keys
 from parts.base.part_keys import MaterialKeys
 
 # the largest part, mm
@@ -80,12 +80,11 @@ def either(key: str, value: object, other: str, without: float | None = None) ->
 def in_vain(keys: Any, names: Sequence[str], code: str = "needs_other", **told: Any) -> Iterator[ParameterError]:
     """The refusals of those of some keys that are not as by default and do nothing beside the others."""
     kind: type[Struct] = type(keys)
-    usual = defaults_of(kind)
-    for name in names:
-        if (value := getattr(keys, name)) != usual[name]:
-            shown = None if isinstance(value, Struct) else value
-            works = Nearest(None if code == "needs_other" else usual[name])
-            yield ParameterError(name, shown, code, works, **told)
+    given = given_keys(keys)
+    for name in (name for name in names if name in given):
+        shown = None if isinstance(given[name], Struct) else given[name]
+        works = Nearest(None if code == "needs_other" else defaults_of(kind)[name])
+        yield ParameterError(name, shown, code, works, **told)
 
 
 def check_idle(idle: Iterable[ParameterError]) -> None:

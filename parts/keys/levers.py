@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError
-from parts.base.fields import defaults_of
+from parts.base.fields import given_keys
 from parts.base.refusal import REMOVED
 from parts.base.schema import described_key
 from parts.keys.base import degrees, mm
@@ -62,15 +62,11 @@ class MechanismTable(Struct, kw_only=True, forbid_unknown_fields=True):
     second_side: Annotated[Literal[1, -1], Meta(description=_SIDE)] = 1
 
 
-def told(keys: MechanismTable) -> dict[str, Any]:
-    """The keys that are not as they are by default."""
-    usual = defaults_of(type(keys))
-    return {name: value for name in usual if (value := getattr(keys, name)) != usual[name]}
-
-
 def scaled(keys: MechanismTable, scale: float) -> MechanismTable:
     """A mechanism with all lengths divided."""
-    lengths = {name: value for name, value in told(keys).items() if name.endswith(("length", "distance", "height"))}
+    lengths = {
+        name: value for name, value in given_keys(keys).items() if name.endswith(("length", "distance", "height"))
+    }
     return replace(keys, **{name: round(value / scale, 6) for name, value in lengths.items()})
 
 
@@ -139,7 +135,7 @@ def turning_levers(keys: MechanismTable) -> Levers:
     """
     from geometry.kinematics.levers import closed
 
-    for name, value in told(keys).items():
+    for name, value in given_keys(keys).items():
         if name in unused(keys):
             raise ParameterError(f"mechanism.{name}", value, "of_no_link", REMOVED)
     try:

@@ -23,6 +23,7 @@ from msgspec import Meta, convert, field
 from geometry.base.errors import LateError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Draft, Record, replace
+from parts.base.fields import given_keys
 from parts.base.schema import tried, value_at
 from parts.keys.base import degrees, mm, start
 from parts.keys.levers import (
@@ -33,7 +34,6 @@ from parts.keys.levers import (
     Variant,
     levers_of,
     scaled,
-    told,
     turning_levers,
 )
 from parts.mates.pages.lever_tasks import chosen
@@ -141,7 +141,7 @@ class _Making(Making):
         check_play(keys.clearance, keys.pin_diameter, keys.axle_diameter)
         given, *_ = chosen(keys.code, keys.assignment, keys.variant)
         own = {key: value for key, value in given.items() if key in MechanismTable.__struct_fields__}
-        self.machine = convert(own | told(keys.mechanism), MechanismTable)
+        self.machine = convert(own | given_keys(keys.mechanism), MechanismTable)
         turning_levers(self.machine)
         self.mechanism = scaled(self.machine, keys.scale)
         self.levers = levers_of(self.mechanism)
@@ -503,7 +503,7 @@ class _Making(Making):
                  for near, far in ([link.slot] if link.slot else ())]  # fmt: skip
         if name == "crank":
             self.part(
-                name, kind="lever_crank", mechanism=told(self.mechanism), width=width, boss_diameter=width,
+                name, kind="lever_crank", mechanism=given_keys(self.mechanism), width=width, boss_diameter=width,
                 face_width=self.thickness, pivot_diameter=holes[0][1], pin_diameter=holes[1][1], label=link.label,
             )  # fmt: skip
         elif len(corners := _hull(link.ends)) == 2 and corners[0] == 0 and corners[1].imag == 0 < corners[1].real:

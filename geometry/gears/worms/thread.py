@@ -173,9 +173,9 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
 def _rounding(
     worm: Worm, radius: float, low: float, half: Callable[[float], float], way: Callable[[float], complex]
 ) -> tuple[float, Arc] | None:
-    """The radius at which the flank ends at the tip's arc, and that arc; None where there is no room for it.
+    """The radius, mm, at which the flank ends at the tip's arc, and that arc; None where there is no room for it.
 
-    ``low``: at which the flank begins; ``half`` thickness and ``way`` of it at a radius.
+    ``radius`` of the arc, ``low``: at which the flank begins, mm; ``half`` thickness, mm, ``way`` of it at a radius.
     """
     tip = worm.tip_radius
 

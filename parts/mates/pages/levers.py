@@ -19,11 +19,12 @@ from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov
 from geometry.kinematics.kinetostatics import by_zhukovsky, frames, reduced_inertia, weights_work
 from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, closed, ranges, swing
+from parts.base.fields import given_keys
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.bodies.lever_crank import LeverCrankSpec
 from parts.keys.base import either
-from parts.keys.levers import NAMES, MechanismTable, levers_of, told, unused
+from parts.keys.levers import NAMES, MechanismTable, levers_of, unused
 from parts.keys.title import TitleBlockTable
 from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.lever_forces import ForcePage, Forces, LeverForce, Turn, asked, weighs
@@ -92,7 +93,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     instances = {key: spec for key, spec in scene.instances.items() if spec.part == part}
     placed = [*instances.values(), *(mate for mate in scene.mates if getattr(mate, "second", None) in instances)]
     turn = next((found for one in placed if (found := getattr(one, "rotation_deg", None))), 0.0)
-    return told(cranks[part].mechanism) | {"start_angle_deg": turn} | table
+    return given_keys(cranks[part].mechanism) | {"start_angle_deg": turn} | table
 
 
 def _is_example(table: Mapping[str, Any]) -> bool:

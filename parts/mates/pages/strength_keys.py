@@ -18,7 +18,7 @@ from geometry.gears.strength.materials import GROUPS, Group, Quality
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle
-from parts.base.fields import defaults_of, fields_of
+from parts.base.fields import fields_of, given_keys
 from parts.base.refusal import REMOVED
 from parts.keys.base import mm, size
 from parts.mates.pages.external import PairKeys
@@ -249,9 +249,8 @@ class Rated(Record, dict=True):
     @property
     def unused(self) -> list[str]:
         """Keys that are given and that the method has not."""
-        usual = defaults_of(LoadKeys)
-        without = (name for name, methods in METHODS.items() if self.keys.method not in methods)
-        return [name for name in without if getattr(self.keys, name) != usual[name]]
+        given = given_keys(self.keys)
+        return [name for name, methods in METHODS.items() if self.keys.method not in methods and name in given]
 
     def contact_parameter(self, index: int) -> float | None:
         """M_1 or M_2: the stress where single contact of a gear begins against that at the pole, by the curvatures.
