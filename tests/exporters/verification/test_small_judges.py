@@ -15,7 +15,7 @@ from exporters.formats.read_solid import Model
 from exporters.formats.readback import ReadMesh
 from exporters.verification import area
 from exporters.verification.board import BoardPiece
-from exporters.verification.topology import areas, chains, volume_in
+from exporters.verification.topology import areas, chains, pieces, volume_in
 from parts.base.readback import ReadError
 from parts.drawing.readback import ReadSheet, Taken
 
@@ -75,6 +75,16 @@ def test_a_corner_of_a_block_has_its_areas_and_volume() -> None:
     mesh = ReadMesh(corners, np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
     assert areas(mesh) == pytest.approx([3.0, 4.0, 6.0, math.sqrt(61.0)])
     assert volume_in(mesh) == pytest.approx(4.0)
+
+
+def test_pieces_are_those_that_hang_together_however_they_are_numbered() -> None:
+    """Two strips of a hundred triangles and a single one, in any order; the ends of a strip meet in no corner."""
+    shuffled = np.random.default_rng(1).permutation(210)
+    strips = [start + np.arange(100)[:, None] + np.arange(3) for start in (0, 102)]
+    order = np.random.default_rng(2).permutation(201)
+    own = np.repeat([0, 1, 2], [100, 100, 1])[order]
+    found = pieces(shuffled[np.concatenate([*strips, [[204, 205, 206]]])[order]])
+    assert len({*zip(own.tolist(), found.tolist(), strict=True)}) == len(set(found.tolist())) == 3
 
 
 def test_outlines_that_meet_in_a_point_are_no_chains() -> None:

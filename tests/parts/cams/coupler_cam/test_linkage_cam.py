@@ -189,6 +189,11 @@ def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name
     cured({"cam": keys}, refusal)
 
 
+def test_a_slider_has_no_swing_and_no_table_that_swings() -> None:
+    """Of other cams a swing belongs to a table of their arm."""
+    assert refused({"cam": SLID | {"swing_deg": 20.0}}).code == "stroke_of_another"
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["too short", "other way", "slides in", "big roller", "face away", "bent face"])
 def test_a_refusal_speaks_ukrainian(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
