@@ -19,6 +19,8 @@ from parts.pages.page import Sheet, Table, table_of
 TOPIC = "identify"
 # so many angles with their modules are shown
 _ROWS = 6
+# heights of teeth above and below the pitch line that are cut, modules: from stub teeth to high ones of clocks
+_ADDENDA, _DEDENDA = (0.6, 1.4), (0.8, 1.55)
 _Teeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z, counted", examples=[24])]
 _Spanned = Annotated[int, Meta(ge=1, le=10_000, description="teeth in the first span k", examples=[4])]
 _SPAN = mm("span measured over k teeth", above=0, most=100_000, example=32.83)
@@ -81,6 +83,8 @@ def _by_spans(page: Sheet, keys: IdentifyKeys) -> Sheet:
     angles = ANGLES if keys.pressure_angle_deg is None else (keys.pressure_angle_deg,)
     told = matches(pitch, [math.radians(a) for a in angles], keys.module)
     found = by_span(told, span, spanned, keys.number_of_teeth, helix)
+    # of those that fit the pitch the first whose teeth are as high as teeth are
+    found.sort(key=lambda row: abs(row[0].deviation) > FITS or not _usual(*_coefficients(keys, row[0], helix, row[1])))
     match, shift = found[0]
     page.given(teeth_spanned=spanned, span=span, next_span=more)
     page.given(tip_diameter=keys.tip_diameter, root_diameter=keys.root_diameter)
@@ -95,7 +99,7 @@ def _by_spans(page: Sheet, keys: IdentifyKeys) -> Sheet:
     page.add("pitch_difference_percent", 100 * match.deviation, "100 * ({m_b} / {m} - 1)")
     _shift(page, keys, more, match, helix, shift)
     _heights(page, keys, match, helix, shift)
-    page.tables.append(_table(found))
+    page.tables.append(_table(keys, helix, found))
     _remarks(page, keys, spanned, found)
     return page
 
@@ -168,23 +172,45 @@ def _shift(page: Sheet, keys: IdentifyKeys, more: float, match: Match, helix: fl
 
 def _heights(page: Sheet, keys: IdentifyKeys, match: Match, helix: float, shift: float, sign: int = 1) -> None:
     """The heights of the tooth in modules, of the diameters that were measured; ``sign``: -1 of a ring."""
-    if keys.tip_diameter is None and keys.root_diameter is None:
+    addendum, dedendum = _coefficients(keys, match, helix, shift, sign)
+    if addendum is None and dedendum is None:
         return
     page.section(N_("Heights of the tooth"))
-    reference = match.module * keys.number_of_teeth / math.cos(helix)
-    if keys.tip_diameter is not None:
-        value = sign * ((keys.tip_diameter - reference) / (2 * match.module) - shift)
+    if addendum is not None:
         formula = "({d_a} - {d}) / (2 * {m}) - {x}" if sign > 0 else "({d} - {d_a}) / (2 * {m}) + {x}"
-        page.add("addendum_coefficient", value, formula)
-    if keys.root_diameter is not None:
-        value = sign * ((reference - keys.root_diameter) / (2 * match.module) + shift)
+        page.add("addendum_coefficient", addendum, formula)
+    if dedendum is not None:
         formula = "({d} - {d_f}) / (2 * {m}) + {x}" if sign > 0 else "({d_f} - {d}) / (2 * {m}) - {x}"
-        page.add("dedendum_coefficient", value, formula)
+        page.add("dedendum_coefficient", dedendum, formula)
 
 
-def _table(found: list[tuple[Match, float]]) -> Table:
-    rows = [(math.degrees(m.pressure_angle), m.module, INCH / m.module, 100 * m.deviation, x) for m, x in found[:_ROWS]]
-    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("Δ", "%"), ("x", ""))
+def _coefficients(
+    keys: IdentifyKeys, match: Match, helix: float, shift: float, sign: int = 1
+) -> tuple[float | None, float | None]:
+    """Addendum and dedendum in modules, of the diameters that were measured; ``sign``: -1 of a ring."""
+    reference = match.module * keys.number_of_teeth / math.cos(helix)
+    tip, root = keys.tip_diameter, keys.root_diameter
+    return (
+        None if tip is None else sign * ((tip - reference) / (2 * match.module) - shift),
+        None if root is None else sign * ((reference - root) / (2 * match.module) + shift),
+    )
+
+
+def _usual(addendum: float | None, dedendum: float | None) -> bool:
+    """Whether teeth are cut so high, by what is known of them."""
+    pairs = (addendum, _ADDENDA), (dedendum, _DEDENDA)
+    return all(height is None or low <= height <= high for height, (low, high) in pairs)
+
+
+def _table(keys: IdentifyKeys, helix: float, found: list[tuple[Match, float]]) -> Table:
+    rows = [
+        (math.degrees(m.pressure_angle), m.module, INCH / m.module, 100 * m.deviation, x,
+         *(height for height in _coefficients(keys, m, helix, x) if height is not None))
+        for m, x in found[:_ROWS]
+    ]  # fmt: skip
+    measured = (("h_a*", keys.tip_diameter), ("h_f*", keys.root_diameter))
+    heads = (("α", "deg"), ("m", "mm"), ("P_d", "1/in"), ("Δ", "%"), ("x", ""),
+             *((symbol, "") for symbol, known in measured if known is not None))  # fmt: skip
     return table_of("modules", N_("Pressure angles and modules, what fits first"), heads, rows)
 
 

@@ -135,6 +135,33 @@ def test_of_angles_that_fit_both_spans_that_comes_first_whose_shift_gears_have(
     assert page["modules"][0]["x"] == pytest.approx(shift, abs=1e-9)
 
 
+# module, angle, teeth, heights above and below the pitch line in modules
+@pytest.mark.parametrize(
+    ("module", "angle_deg", "teeth", "addendum", "dedendum"),
+    [
+        (3.0, 25.0, 24, 1.0, 1.25),
+        (25.4 / 9, 14.5, 24, 1.0, 1.157),
+        (2.0, 20.0, 30, 0.8, 1.0),
+        (4.0, 30.0, 17, 0.9, 1.2),
+    ],
+)
+def test_of_angles_that_fit_both_spans_that_comes_first_whose_teeth_are_as_high_as_teeth_are(
+    capsys: pytest.CaptureFixture[str], module: float, angle_deg: float, teeth: int, addendum: float, dedendum: float
+) -> None:
+    """Module 3 of 25 degrees read to a hundredth was told to be 9 / inch of 14.5, whose roots would be 1.6 modules."""
+    first, second = (round(span, 2) for span in spans_of(module, angle_deg, teeth, 0.0, 4))
+    keys = {"number_of_teeth": teeth, "teeth_spanned": 4, "span": first, "next_span": second}
+    high = {"tip_diameter": module * (teeth + 2 * addendum), "root_diameter": module * (teeth - 2 * dedendum)}
+    page = identified(capsys, **keys, **high)
+    assert page["values"]["pressure_angle_deg"] == pytest.approx(angle_deg)
+    assert page["values"]["module"] == pytest.approx(module, rel=1e-4)
+    for row in page["modules"]:
+        own = module * teeth - row["m"] * teeth
+        told = addendum * module + own / 2, dedendum * module - own / 2
+        shift = row["x"] * row["m"]
+        assert (row["h_a*"] * row["m"] + shift, row["h_f*"] * row["m"] - shift) == pytest.approx(told, abs=1e-6)
+
+
 def test_what_is_known_decides_and_what_fits_nothing_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     first, second = spans_of(2.15, 20.0, 30, 0.0, 4)
     keys = {"number_of_teeth": 30, "teeth_spanned": 4, "span": first, "next_span": second}
