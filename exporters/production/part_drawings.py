@@ -10,6 +10,7 @@ from geometry.base.errors import ParameterError
 from parts.base.reasons import reason
 from parts.base.refusal import placed
 from parts.base.registry import KINDS
+from parts.base.schema import unit_of
 from parts.base.texts import filled
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
@@ -42,14 +43,14 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     for name in drawn:
         part = parts[name]
         subject = Subject(part, wishes, asked.language)
-        plain = import_module(str(part.made_by.drawing)).part_drawing(subject)
+        try:
+            plain = import_module(str(part.made_by.drawing)).part_drawing(subject)
+            table = part_table(part, wanted.scene, wanted.placing, parts)
+        except ParameterError as error:
+            raise placed(wanted.source, f"parts.{name}", error, unit_of(type(part.keys), error.name)) from error
         drawing, keys = with_runouts(plain, subject)
         runs |= keys
         _check_zones(drawing, wishes, wanted)
-        try:
-            table = part_table(part, wanted.scene, wanted.placing, parts)
-        except ParameterError as error:
-            raise placed(wanted.source, f"parts.{name}", error) from error
         blocks, language = list[Block](), asked.language
         for beside, wide, high in table_sizes(table, language) if table is not None else ():
             assert table is not None

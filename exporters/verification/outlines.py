@@ -65,7 +65,7 @@ def verify_loops(
     later = next((b for a, b in pairwise(cut) if _ORDER.index(b) < _ORDER.index(a)), "")
     failures = unless(not later, "a contour on {later} comes after one that lets it fall", later=later)
     worst, shortest = 0.0, float("inf")
-    order = _matched([x.vertices for x in loops], profiles)
+    order = _matched([x.vertices for x in loops], profiles, declared)
     for loop, profile, layer in zip((loops[i] for i in order), profiles, layers, strict=True):
         right, told = loop.layer.upper() in ("", layer), N_("a contour stands on {layer} instead of {wanted}")
         failures += unless(right, told, layer=loop.layer, wanted=layer)
@@ -109,7 +109,7 @@ def verify_samples(
         return Verdict(count, tuple(failures))
     worst = 0.0
     found = list(areas if areas is not None else (signed_area(x, np.zeros(len(x))) for x in loops))
-    for index, profile in zip(_matched(loops, profiles), profiles, strict=True):
+    for index, profile in zip(_matched(loops, profiles, declared), profiles, strict=True):
         loop, area, exact = loops[index], abs(found[index]), abs(profile_area(profile))
         worst = max(worst, _samples_deviation(loop, profile, declared))
         failures += unless(is_simple(loop), "a contour crosses itself")
@@ -135,7 +135,7 @@ def _samples_deviation(loop: Complex, profile: Profile, declared: float) -> floa
     return float(distance_to_profile(loop, profile, trusted=declared).max())
 
 
-def _matched(loops: Sequence[Complex], profiles: Sequence[Profile]) -> list[int]:
+def _matched(loops: Sequence[Complex], profiles: Sequence[Profile], declared: float) -> list[int]:
     """The loop of each profile: of those that are left the one that stays nearest to it at all of its points."""
     rough = np.array([x[np.linspace(0, len(x), _ROUGH, endpoint=False).astype(int)] for x in loops])
     left = np.ones(len(loops), dtype=bool)
@@ -148,7 +148,7 @@ def _matched(loops: Sequence[Complex], profiles: Sequence[Profile]) -> list[int]
             least = np.nan_to_num(np.where(left, np.abs(rough - middle).max(axis=1) - reach, np.inf), nan=np.inf)
             while least.min() < best:
                 index = int(np.argmin(least))
-                away = float(distance_to_profile(rough[index], profile, trusted=np.inf).max())
+                away = float(distance_to_profile(rough[index], profile, trusted=declared).max())
                 if away < best:
                     best, found = away, index
                 least[index] = np.inf

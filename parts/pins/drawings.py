@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.curves.line_arc import Line
@@ -36,6 +37,7 @@ from parts.drawing.working import (
     View,
     requirements,
 )
+from parts.keys.pins import most_of
 from parts.keys.wheel import shape_of
 from parts.pins.cycloidal_disc import CycloidalDiscSpec
 from parts.pins.lantern_gear import LanternGearSpec
@@ -155,6 +157,11 @@ def _eccentric(disc: RoundDisc, subject: Subject) -> PartDrawing:
     keys = subject.part.keys
     assert isinstance(keys, EccentricSpec)
     middle, radius = complex(disc.eccentricity), disc.radius
+    if disc.eccentricity >= radius:
+        # the section is that in which its axis lies
+        raise ParameterError(
+            "eccentricity", disc.eccentricity, "axis_leaves_section", most_of(radius, disc.eccentricity)
+        )
     made = disk_drawing(subject, WheelShape(keys.face_width), disc.holes, "zero_thick")
     if not disc.eccentricity:
         return made

@@ -276,7 +276,7 @@ def test_the_angle_of_the_return_is_blamed_where_it_asks_for_too_much() -> None:
     assert refused(with_key(raw, key, found.nearest.value)) is None
     assert refused(with_key(raw, key, found.nearest.value * 1.001)) is not None
     flat = scene_of(cam(follower="flat", follower_radius=None, base_circle_radius=None, least_curvature_radius=5.0))
-    check_refused(flat, key, 20.0, "flat_has_no_return_angle", 0.0)
+    check_refused(flat, key, 20.0, "flat_has_no_return_angle", None)
 
 
 CAM_REFUSED: list[tuple[Raw, str, object, str, object]] = [

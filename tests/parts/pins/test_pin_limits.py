@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
 
+from exporters.production.plan import plan_build
 from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pins.cycloidal import CycloidalDisc, checked_disc
+from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from tests.parts.limits import check_limit, check_offer, check_refused, offset_limits, refused, scene_of, with_key
 from tests.parts.scene.test_offers import judged
@@ -141,6 +144,24 @@ def test_an_axis_beside_its_disc_is_told_from_the_rim_on() -> None:
         found = refused(scene_of(ECCENTRIC | {"bore_diameter": 0.5, "eccentricity": value}))
         assert found is not None
         assert found.key == f"parts.p.{key}"
+
+
+def test_a_disc_beside_its_axis_has_no_drawing_but_files() -> None:
+    """Its drawing was a traceback; a section stands in the plane of the axis."""
+    raw = scene_of({"kind": "eccentric", "diameter": 32.0, "eccentricity": 16.5})
+    assert refused(raw) is None
+    for value, drawn in ((16.5, False), (15.999, True)):
+        part = raw["parts"]["p"] | {"eccentricity": value}
+        asked = {"parts": {"p": part}, "exports": [{"format": "svg", "purpose": "part"}]}
+        plan = partial(plan_build, scene_from_dict(asked, "s", "s"), "s", [], [])
+        if drawn:
+            assert plan().sheets
+            continue
+        with pytest.raises(SceneError) as found:
+            plan()
+        assert (found.value.key, found.value.code) == ("parts.p.eccentricity", "axis_leaves_section")
+        assert found.value.nearest is not None
+        assert 15.99 < found.value.nearest.value < 16  # type: ignore[operator]
 
 
 REFUSED: list[tuple[dict[str, Any], str, object, str, object]] = [
