@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import reduce
+from functools import cached_property, reduce
 from itertools import pairwise
-from typing import NamedTuple, Protocol, TypeAlias, cast
+from typing import Protocol, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.base.gauss import panels
-from geometry.base.record import made_once
+from geometry.base.record import Record, made_once, replace
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
@@ -217,7 +217,7 @@ def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
     return np.min([distance_to_curve(points, curve) for curve in curves], axis=0)
 
 
-class _Alike(NamedTuple):
+class _Alike(Record, dict=True):
     """Curves that one formula gives, or one alone, with the parameters and places (curves, n) of their samples."""
 
     curves: Sequence[Travelled]
@@ -235,6 +235,11 @@ class _Alike(NamedTuple):
         size = self.parameters.shape
         return ask(self.of(np.repeat(np.arange(size[0]), size[1])), self.parameters.ravel()).reshape(size)
 
+    @cached_property
+    def ways(self) -> Complex:
+        """The first derivatives at the samples (curves, n)."""
+        return self.every(lambda curve, t: curve.derivatives(t, 1)[1])
+
 
 def _sampled(curves: Sequence[Travelled], parameters: Real) -> _Alike:
     whole = None
@@ -242,7 +247,7 @@ def _sampled(curves: Sequence[Travelled], parameters: Real) -> _Alike:
         first, *_ = alike = cast("Sequence[Curve]", curves)
         whole = first.together(alike)
     group = _Alike(curves, whole, parameters, np.empty(0, dtype=complex))
-    return group._replace(points=group.every(lambda curve, t: np.asarray(curve.point(t))))
+    return replace(group, points=group.every(lambda curve, t: np.asarray(curve.point(t))))
 
 
 def _evenly(curves: Sequence[Travelled], count: int) -> _Alike:
@@ -354,9 +359,9 @@ def _on_other_branches(points: Complex, group: _Alike, which: NDArrayInt, found:
     that sample may be nearer: by half of its length than its nearer end at most. The distance falls at its start then
     and rises at its end. One that ends there is asked again, from its other end, where steps from there led nowhere.
     """
-    samples, ways = group.points[which], group.every(lambda curve, t: curve.derivatives(t, 1)[1])
+    samples = group.points[which]
     spokes = points[:, None] - samples
-    gap, falls = np.abs(spokes), (np.conj(ways[which]) * spokes).real
+    gap, falls = np.abs(spokes), (np.conj(group.ways[which]) * spokes).real
     least = np.minimum(gap[:, :-1], gap[:, 1:]) - _BULGE / 2 * np.abs(np.diff(samples))
     apart = gap.argmin(axis=1)[:, None] - np.arange(samples.shape[1] - 1)
     others = ((apart != 0) & (apart != 1)) | (found >= gap.min(axis=1))[:, None]

@@ -50,7 +50,8 @@ def test_every_curve_of_an_outline_keeps_its_tolerance(degree: int, continuity: 
     poles = alone = 0
     for segment, spline in list(zip(profile.period, made.period, strict=True))[::26]:
         assert away(segment.curve, spline) <= made.max_error + 1e-9
-        poles += len(spline.poles)  # type: ignore[union-attr]
+        assert isinstance(spline, BSpline)
+        poles += len(spline.poles)
         alone += len(fit_spline(segment.curve, TOLERANCE, degree=degree, continuity=continuity).spline.poles)
     assert poles <= 1.1 * alone
 
