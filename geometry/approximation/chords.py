@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from functools import lru_cache
+from typing import cast
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
 from geometry.base.roots import halved
 from geometry.base.tolerance import TOLERANCES
+from geometry.curves.alike import by_formula, sampled
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Curve, Real, at_shares
 from geometry.curves.line_arc import Arc, Line
@@ -29,6 +31,8 @@ _DENSITY_SAMPLES, _SAMPLES_A_KNOT = 129, 4
 # a tolerance, part of the longest chord, at which the error of chords across knots is sampled
 _CHORD_SHARE = 1e-3
 _MAX_CHORDS = 1_000_000
+# a height counts by the square of its place
+_HALVINGS = 28
 
 
 class Piece(Record):
@@ -134,13 +138,20 @@ def _shared_chords(curves: Sequence[Curve], walls: Collection[tuple[int, int]], 
     shares = (counts[finest] - low) / (high - low)
     shares[[0, -1]] = 0.0, 1.0
     while len(shares) <= _MAX_CHORDS:
-        error = max(0.0 if isinstance(c, Line) else chord_error(c, at_shares(c, shares)) for c in curves)
+        bent = [c for c in curves if not isinstance(c, Line)]
+        error = max((_greatest([bent[i] for i in own], shares) for own in by_formula(bent)), default=0.0)
         error += _twist(np.array([c.point(at_shares(c, shares)) for c in curves]), walls)
         if error <= tolerance:
             return shares, error
         finer = np.linspace(0, len(shares) - 1, math.ceil(1.2 * len(shares)) + 1)
         shares = np.interp(finer, np.arange(len(shares)), shares)
     raise ConvergenceError("chords for the tolerance", tolerance, _MAX_CHORDS)
+
+
+def _greatest(alike: Sequence[Curve], shares: Real) -> float:
+    """The greatest error of chords at equal shares of curves that one formula gives, mm."""
+    t = np.array([at_shares(c, shares) for c in alike])
+    return chord_error(alike[0], t[0]) if len(alike) == 1 else _chord_error(alike, t)
 
 
 def _twist(points: Complex, walls: Collection[tuple[int, int]]) -> float:
@@ -232,16 +243,25 @@ def _arc_chords(arc: Arc, tolerance: float) -> tuple[Real, float, bool]:
 def chord_error(curve: Curve, t: Real) -> float:
     """Greatest distance between a curve of one-signed curvature and its chords: exact up to rounding.
 
-    The distance from the chord is greatest where the tangent is parallel to it: bisection on all chords at once. Of a
-    curve with knots, which may turn often, a bound: arcs without a bulge.
+    Of a curve with knots, which may turn often, a bound: arcs without a bulge.
     """
+    if not curve.knots.size:
+        return _chord_error([curve], t[None])
     points = curve.point(t)
-    chord = points[1:] - points[:-1]
-    if curve.knots.size:
-        return arc_error(curve, t, points, np.zeros(len(chord)), _CHORD_SHARE * float(np.abs(chord).max()))[0]
-    direction = chord / np.abs(chord)
-    sign = np.sign((np.conj(direction) * curve.tangent(t[:-1])).imag)
-    _, high = halved(lambda at: (np.conj(direction) * curve.tangent(at)).imag * sign > 0, t[:-1], t[1:], 50)
-    height = np.abs((np.conj(direction) * (curve.point(high) - points[:-1])).imag)
-    scale = float(np.max(np.abs(points)))
-    return float(height.max()) + 4 * TOLERANCES.relative_rounding * scale
+    longest = float(np.abs(np.diff(points)).max())
+    return arc_error(curve, t, points, np.zeros(len(points) - 1), _CHORD_SHARE * longest)[0]
+
+
+def _chord_error(curves: Sequence[Curve], t: Real) -> float:
+    """The same of curves that one formula gives, (curves, n).
+
+    The distance from the chord is greatest where the tangent is parallel to it: bisection on all chords at once.
+    """
+    group = sampled(curves, t)
+    points, chord = group.points[:, :-1].ravel(), np.diff(group.points).ravel()
+    curve = cast("Curve", group.of(np.repeat(np.arange(len(curves)), t.shape[1] - 1)))
+    back, low = np.conj(chord / np.abs(chord)), t[:, :-1].ravel()
+    sign = np.sign((back * curve.tangent(low)).imag)
+    _, high = halved(lambda at: (back * curve.tangent(at)).imag * sign > 0, low, t[:, 1:].ravel(), _HALVINGS)
+    height = np.abs((back * (curve.point(high) - points)).imag)
+    return float(height.max()) + 4 * TOLERANCES.relative_rounding * float(np.abs(group.points).max())

@@ -32,6 +32,7 @@ class EllipticFillet(RackFillet, Record):
     semi_axis: float
     stretch: float
     centre: complex = 0j
+    columns = "pitch_radius", "depth", "tip_radius", "angle", "semi_axis", "stretch", "centre"
 
     def _square(self, u: Real, order: int) -> Series:
         """a^2 cos^2 u + b^2 sin^2 u = (a^2 + b^2)/2 + (a^2 - b^2)/2 cos 2u, up to an order."""

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property, reduce
+from collections.abc import Iterator, Sequence
+from functools import reduce
 from itertools import pairwise
-from typing import Protocol, TypeAlias, cast
+from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from geometry.base.gauss import panels
-from geometry.base.record import Record, made_once, replace
+from geometry.base.record import made_once
+from geometry.curves.alike import Alike, Travelled, by_formula, evenly, sampled
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
@@ -41,20 +42,6 @@ _SHUT = 1e-6
 NDArrayInt = NDArray[np.int64]
 # numbers of points, each with that of a curve, and where it stands turned to it
 _Asked: TypeAlias = tuple[NDArrayInt, NDArrayInt, Complex]
-
-
-class Travelled(Protocol):
-    """What distances ask of a curve; splines of files give no more."""
-
-    @property
-    def domain(self) -> tuple[float, float]:
-        """Parameter interval."""
-
-    def point(self, t: ArrayLike) -> Complex:
-        """Points, mm."""
-
-    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
-        """Points and derivatives up to ``order``, mm per parameter unit to that power."""
 
 
 def profile_area(profile: Profile) -> float:
@@ -207,7 +194,7 @@ def distance_to_curve(points: Complex, curve: Travelled) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
     if isinstance(curve, Arc | Line):
         return distance_to_plain(points, curve)
-    alone = _evenly([curve], _FINE_SAMPLES)
+    alone = evenly([curve], _FINE_SAMPLES)
     start = _nearest_index(points, alone.points[0])
     return _projected(points, alone, np.zeros_like(start), start, newton=True)
 
@@ -217,56 +204,10 @@ def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
     return np.min([distance_to_curve(points, curve) for curve in curves], axis=0)
 
 
-class _Alike(Record, dict=True):
-    """Curves that one formula gives, or one alone, with the parameters and places (curves, n) of their samples."""
-
-    curves: Sequence[Travelled]
-    # all of them as one, where there are several
-    whole: Curve | None
-    parameters: Real
-    points: Complex
-
-    def of(self, which: NDArrayInt) -> Travelled:
-        """The curve that each parameter is asked of."""
-        return self.curves[0] if self.whole is None else self.whole.taken(which)
-
-    def every(self, ask: Callable[[Travelled, Real], Complex]) -> Complex:
-        """What the curves say at their samples (curves, n)."""
-        size = self.parameters.shape
-        return ask(self.of(np.repeat(np.arange(size[0]), size[1])), self.parameters.ravel()).reshape(size)
-
-    @cached_property
-    def ways(self) -> Complex:
-        """The first derivatives at the samples (curves, n)."""
-        return self.every(lambda curve, t: curve.derivatives(t, 1)[1])
-
-
-def _sampled(curves: Sequence[Travelled], parameters: Real) -> _Alike:
-    whole = None
-    if len(curves) > 1:
-        first, *_ = alike = cast("Sequence[Curve]", curves)
-        whole = first.together(alike)
-    group = _Alike(curves, whole, parameters, np.empty(0, dtype=complex))
-    return replace(group, points=group.every(lambda curve, t: np.asarray(curve.point(t))))
-
-
-def _evenly(curves: Sequence[Travelled], count: int) -> _Alike:
-    low, high = np.array([c.domain for c in curves]).T
-    return _sampled(curves, np.linspace(low, high, count, axis=1))
-
-
-def _groups(curves: Sequence[Curve]) -> list[NDArrayInt]:
-    """Numbers of the curves, of which those that one formula gives are together."""
-    found: dict[object, list[int]] = {}
-    for number, curve in enumerate(curves):
-        found.setdefault(number if curve.alike is None else curve.alike, []).append(number)
-    return [np.array(numbers) for numbers in found.values()]
-
-
 def _quick_distance(points: Complex, own: NDArrayInt, chains: Sequence[Sequence[Curve]]) -> Real:
     """Distances of points from the curves of their own chains beside the nearest coarse samples."""
     curves = [c for chain in chains for c in chain]
-    groups = [(k, _evenly([curves[i] for i in k], _COARSE_SAMPLES)) for k in _groups(curves)]
+    groups = [(k, evenly([curves[i] for i in k], _COARSE_SAMPLES)) for k in by_formula(curves)]
     samples = np.empty((len(curves), _COARSE_SAMPLES), dtype=complex)
     for numbers, group in groups:
         samples[numbers] = group.points
@@ -304,7 +245,7 @@ def _thorough_distance(
     rows_of = [np.flatnonzero(own == k) for k in range(len(chains))]
     nears = [[points[rows] * turn for turn in some] for rows, some in zip(rows_of, turns, strict=True)]
 
-    def asked(numbers: NDArrayInt, group: _Alike) -> Iterator[_Asked]:
+    def asked(numbers: NDArrayInt, group: Alike) -> Iterator[_Asked]:
         """The points, each with every curve that may be so near."""
         middles, reaches = _discs(group.points)
         for chain in np.unique(chain_of[numbers]).tolist():
@@ -318,9 +259,9 @@ def _thorough_distance(
                     if row.size:
                         yield rows[row], places[column], at[row]
 
-    for numbers in _groups(curves):
+    for numbers in by_formula(curves):
         some = [curves[i] for i in numbers]
-        group = _evenly(some, _FINE_SAMPLES) if len(some) > 1 else _sampled(some, _fine(some[0])[None])
+        group = evenly(some, _FINE_SAMPLES) if len(some) > 1 else sampled(some, _fine(some[0])[None])
         for rows, which, near in _batches(asked(numbers, group)):
             blocks = np.array_split(np.arange(near.size), math.ceil(near.size * group.parameters.shape[1] / _AT_ONCE))
             if group.whole is None:
@@ -352,7 +293,7 @@ def _one(held: list[_Asked]) -> _Asked:
     return rows, which, points
 
 
-def _on_other_branches(points: Complex, group: _Alike, which: NDArrayInt, found: Real) -> Real:
+def _on_other_branches(points: Complex, group: Alike, which: NDArrayInt, found: Real) -> Real:
     """What is ``found`` from the nearest sample, or less.
 
     Of a curve that comes back beside itself, or turns between samples far from each other, a piece that does not end at
@@ -402,7 +343,7 @@ def _folded(points: Complex, profile: Profile) -> Complex:
     return points * np.exp(-1j * profile.pitch_angle * period)
 
 
-def _projected(points: Complex, group: _Alike, which: NDArrayInt, start: NDArrayInt, *, newton: bool) -> Real:
+def _projected(points: Complex, group: Alike, which: NDArrayInt, start: NDArrayInt, *, newton: bool) -> Real:
     """Distance of each point from one curve of a group by projection from its nearest sample; steps stay beside it.
 
     Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
@@ -425,7 +366,7 @@ def _projected(points: Complex, group: _Alike, which: NDArrayInt, start: NDArray
     return np.minimum(found, np.abs(ends[which] - points[:, None]).min(1))
 
 
-def _feet(points: Complex, group: _Alike, which: NDArrayInt, start: NDArrayInt, *, newton: bool) -> Real:
+def _feet(points: Complex, group: Alike, which: NDArrayInt, start: NDArrayInt, *, newton: bool) -> Real:
     """Parameters of feet by steps from samples."""
     lows, highs = group.parameters[which, 0], group.parameters[which, -1]
     reaches = (highs - lows) / (min(group.parameters.shape[1], _FINE_SAMPLES) - 1)

@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 
 import numpy as np
 
 from geometry.base.nearest import last_that_holds
+from geometry.base.placement import Placement2
 from geometry.base.record import made_once, replace
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc
-from geometry.plane.measure import distance_to_profile
+from geometry.plane.measure import distance_to_profile, profile_area
 from geometry.plane.profile import Profile, joint_turn
 from geometry.solids.body import Body, BodyBuilder, Wall
 
 # the share of a mesh's tolerance that the bow of a chamfer's slices may take
 _BOW_SHARE = 0.25
 # shares of a segment and of a slice's depth at which its bow is sampled, and how much more it may be between them
-_ALONG, _ACROSS, _SAMPLED = 17, (0.25, 0.5, 0.75), 1.1
+_ALONG, _ACROSS, _SAMPLED = 17, (0.5, 0.25, 0.75), 1.1
+# part of a mesh's tolerance by which an edge has opened where it is first cut again
+_LEAST_SLICE = 1 / 16
 # lower bows are rounding, mm
 _NO_BOW = 1e-11
+# decimals of depths, mm, beyond which they are rounding
+_DIGITS = 9
 
 # an edge opens with the root of the depth: its pieces grow with this power of their number
 _OPENING_POWER = 4
@@ -66,34 +71,38 @@ def opening(body: Body, wall: Wall, whole: int, end: int) -> float | None:
     """
 
     def opened(share: float) -> bool:
-        return _corners(body.section_at(wall, whole, end, share)) > corners
+        return len(_corners(body.section_at(wall, whole, end, share))) > corners
 
     boundary = body.loop_profile(whole)
-    corners = _corners(boundary)
+    corners = len(_corners(boundary))
     if not opened(1.0):
-        return 0.0 if _has_cusp(boundary, abs(body.loops[end].z - body.loops[whole].z)) else None
+        return 0.0 if _has_cusp(boundary, _inset(boundary, body.loop_profile(end))) else None
     if opened(_OPENING_SHARE):
         return 0.0
     return last_that_holds(lambda share: not opened(share), 1.0, _OPENING_SHARE, _OPENING_STEPS)
 
 
+def _inset(whole: Profile, end: Profile) -> float:
+    """How far inwards a chamfer goes, mm, by the area that it takes: crowned teeth lose little over their height."""
+    length = whole.count * float(np.abs(np.diff(_points(whole))).sum())
+    return abs(profile_area(whole) - profile_area(end)) / length
+
+
 def _has_cusp(profile: Profile, depth: float) -> bool:
     """Whether a curve bends at a corner of a profile so sharply, against a chamfer's depth, mm, as at its cusp."""
-    curves = [s.curve for s in profile.period]
     return any(
         not isinstance(c, Arc) and abs(float(c.curvature(t))) * _CUSP_DEPTHS * depth > 1
-        for a, b in zip(curves, curves[1:] + curves[:1], strict=True)
-        if abs(joint_turn(a, b)) > TOLERANCES.smooth_angle
+        for a, b in _corners(profile)
         for c, t in ((a, a.domain[1]), (b, b.domain[0]))
     )
 
 
-def _corners(profile: Profile) -> int:
-    """How many of the joints of a profile's period are corners."""
+def _corners(profile: Profile) -> list[tuple[Curve, Curve]]:
+    """The curves before and after each corner of a profile's period; its end is joined by the next period's start."""
     curves = [s.curve for s in profile.period]
-    return sum(
-        abs(joint_turn(a, b)) > TOLERANCES.smooth_angle for a, b in zip(curves, curves[1:] + curves[:1], strict=True)
-    )
+    following = [*curves[1:], curves[0].placed(Placement2(profile.pitch_angle))]
+    pairs = zip(curves, following, strict=True)
+    return [(a, b) for a, b in pairs if abs(joint_turn(a, b)) > TOLERANCES.smooth_angle]
 
 
 def even_shares(count: int, opens: float | None = None) -> tuple[float, ...]:
@@ -104,34 +113,56 @@ def even_shares(count: int, opens: float | None = None) -> tuple[float, ...]:
     return (*(opens * x for x in even if opens), *(opens + (1 - opens) * x**_OPENING_POWER for x in even))
 
 
-def level_shares(body: Body, tolerance: float) -> tuple[float, ...]:
-    """Where all chamfers are cut, so that lines between the cuts bow by a share of the tolerance, mm."""
-    most, opens = made_once(body, "bow", lambda: _worst(body))
-    if most is None:
-        return (1.0,)
-    return even_shares(max(1, math.ceil(math.sqrt(most / (_BOW_SHARE * tolerance)))), opens)
+def level_pieces(body: Body, tolerance: float) -> Pieces:
+    """Where chamfers are cut, all of one depth alike, so that lines between the cuts bow by a share of the tolerance.
+
+    Slices much lower than the tolerance, mm, bow by less.
+    """
+    worst = made_once(body, "bow", lambda: _worst(body))
+
+    def pieces(wall: Wall, whole: int, end: int) -> Sequence[float]:
+        depth = _depth(body, wall)
+        most, opens = worst[depth]
+        shares = even_shares(max(1, math.ceil(math.sqrt(most / (_BOW_SHARE * tolerance)))), opens)
+        if opens is None:
+            return shares
+        low = opens + _LEAST_SLICE * tolerance / depth
+        return tuple(share for share in shares if share <= opens or share >= min(low, 1.0))
+
+    return pieces
 
 
-def _worst(body: Body) -> tuple[float | None, float | None]:
-    """How far lines across any chamfer bow, mm, and the least share at which an edge opens; None: there is none."""
-    chamfers = list(body.chamfers())
-    opens = [found for chamfer in chamfers if (found := opening(body, *chamfer)) is not None]
-    return max((chamfer_bow(body, *chamfer) for chamfer in chamfers), default=None), min(opens, default=None)
+def _worst(body: Body) -> dict[float, tuple[float, float | None]]:
+    """How far lines across chamfers of each depth bow, mm, and the least share at which an edge of theirs opens."""
+    groups: dict[float, list[tuple[Wall, int, int]]] = {}
+    for chamfer in body.chamfers():
+        groups.setdefault(_depth(body, chamfer[0]), []).append(chamfer)
+    found = {}
+    for depth, chamfers in groups.items():
+        opens = [share for chamfer in chamfers if (share := opening(body, *chamfer)) is not None]
+        found[depth] = chamfer_bow(body, chamfers), min(opens, default=None)
+    return found
 
 
-def chamfer_bow(body: Body, wall: Wall, whole: int, end: int) -> float:
-    """How far lines between equal shares of a chamfer's loops lie off its sections, within their planes, mm."""
-    section = partial(body.section_at, wall, whole, end)
-    lower, upper = _points(section(0.0)), _points(section(1.0))
-    worst = 0.0
-    for share in _ACROSS:
-        middle = section(share)
-        points = (1 - share) * lower + share * upper
-        # a line is its own extension
-        near = float(np.abs(points - _points(middle)).max())
-        if near > _NO_BOW:
-            near = min(near, float(distance_to_profile(points, middle, trusted=math.inf).max()))
-        worst = max(worst, near)
+def _depth(body: Body, wall: Wall) -> float:
+    """The height of a chamfer, mm, the same for all that differ by rounding."""
+    low, high = body.height(wall)
+    return round(high - low, _DIGITS)
+
+
+def chamfer_bow(body: Body, chamfers: Iterable[tuple[Wall, int, int]]) -> float:
+    """How far lines between equal shares of chamfers' loops lie off their sections at most, within their planes, mm."""
+    worst = _NO_BOW
+    for chamfer in chamfers:
+        section = partial(body.section_at, *chamfer)
+        lower, upper = _points(section(0.0)), _points(section(1.0))
+        for share in _ACROSS:
+            middle = section(share)
+            points = (1 - share) * lower + share * upper
+            # a line is its own extension; what is nearer than the worst by its own place is nearer by any
+            if (near := float(np.abs(points - _points(middle)).max())) > worst:
+                off = float(distance_to_profile(points, middle, trusted=math.inf).max())
+                worst = max(worst, min(near, off))
     return _SAMPLED * worst if worst > _NO_BOW else 0.0
 
 

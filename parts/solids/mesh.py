@@ -18,7 +18,7 @@ from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Flags, Real
 from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
-from geometry.solids.chamfer import chamfer_bow, cut_chamfers, level_shares
+from geometry.solids.chamfer import chamfer_bow, cut_chamfers, level_pieces
 from parts.solids.caps import (
     Triangles,
     aligned_bore,
@@ -70,9 +70,8 @@ def mesh_outlines(body: Body | FacedBody, tolerance: float, least_edge: float) -
 
 
 def _sliced(body: Body, tolerance: float) -> Body:
-    """The body with its chamfers cut into slices that plane triangles follow: all alike, so that slices are level."""
-    shares = level_shares(body, tolerance)
-    return cut_chamfers(body, lambda *_: shares)
+    """The body with its chamfers cut into slices that plane triangles follow, level ones where they are as deep."""
+    return cut_chamfers(body, level_pieces(body, tolerance))
 
 
 def _chamfered(
@@ -84,7 +83,7 @@ def _chamfered(
     """
     profiles = [body.profiles[i] for i in group]
     chamfers = [chamfer for chamfer in body.chamfers() if body.loops[chamfer[1]].profile in group]
-    bow = max(chamfer_bow(body, *chamfer) for chamfer in chamfers)
+    bow = chamfer_bow(body, chamfers)
     walls = {(group.index(body.loops[a].profile), group.index(body.loops[b].profile)) for _, a, b in chamfers}
     turned = any(i in twisted for i in group)
     made = approximate_together(profiles, walls, (_TURNED_SHARE if turned else 1.0) * tolerance - bow, least_edge)

@@ -1,7 +1,8 @@
-"""Lengthwise crowning of spur teeth: each section is that of a gear whose teeth are thinner towards the faces.
+"""Lengthwise crowning of teeth: each section is that of a gear whose teeth are thinner towards the faces.
 
-At a height z each flank is relieved by C (2 z / b - 1)^2, normal to it (ISO 21771: C_beta): an involute turns about the
-axis, and its fillet is that of the wider rack tooth, so that every section is exact.
+At a height z each flank is relieved by C (2 z / b - 1)^2, along the base tangent of its section, as deviations of
+helices are measured (ISO 1328-1; ISO 21771: C_beta): an involute turns about the axis, and its fillet is that of the
+wider rack tooth, so that every section is exact. Helical teeth turn besides, but not in the chamfers of their faces.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import GeometryError
+from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Profile
@@ -47,10 +49,12 @@ def crowned_teeth(
     crowning: float,
     width: float,
     chamfers: tuple[float, float],
+    rate: float = 0.0,
 ) -> Rim:
     """Teeth relieved by ``crowning`` at both faces, with face chamfers below and above; mm.
 
-    ``outline`` makes that of a gear, moved out of the material and then cut so deep by a chamfer.
+    ``outline`` makes that of a gear, moved out of the material and then cut so deep by a chamfer; ``rate``: rad/mm by
+    which a helix turns it.
 
     Raises
     ------
@@ -66,7 +70,9 @@ def crowned_teeth(
 
         def at(z: float) -> Profile:
             depth = max(below - z, z - (width - above), 0.0)
-            return section(round(crowning * (2 * z / width - 1) ** 2, _DIGITS), round(depth, _DIGITS))
+            upright = section(round(crowning * (2 * z / width - 1) ** 2, _DIGITS), round(depth, _DIGITS))
+            turn = rate * min(max(z, below), width - above)
+            return upright.placed(Placement2(turn)) if turn else upright
 
         for side, chamfer in (("below", below), ("above", above)):
             if chamfer:

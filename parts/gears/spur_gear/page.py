@@ -13,7 +13,7 @@ from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS, checked_gear
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, transverse_angle
+from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, normal_share, transverse_angle
 from parts.base.texts import N_
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings
 from parts.keys.base import mm
@@ -58,8 +58,9 @@ def sheet(keys: SpurKeys) -> Sheet:
     asked = Asked(helix, *face, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
     measured_steps(page, gear, asked)
     if keys.crowning:
+        less = 2 * keys.crowning * normal_share(gear.pressure_angle, helix)
         page.note(N_("crowned teeth: their sizes are those in the middle of the face; "
-                     "at either face the span is {less:g} mm less"), less=2 * keys.crowning)  # fmt: skip
+                     "at either face the span is {less:g} mm less"), less=less)  # fmt: skip
     page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     return page
 

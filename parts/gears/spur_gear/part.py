@@ -139,14 +139,14 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
 
 
 def _idle(keys: SpurGearSpec) -> Iterator[ParameterError]:
-    """Crowning of teeth of a helix, or cut deeper."""
-    for key, plain in (("helix_angle_deg", 0.0), ("thinning_method", "wider_rack_tooth")):
+    """Crowning of double helical teeth, or of such that are cut deeper."""
+    for key, plain in (("double_helical", False), ("thinning_method", "wider_rack_tooth")):
         if (given := getattr(keys, key)) != plain:
             yield from in_vain(keys, ("crowning",), "not_crowned", key=key, given=given)
 
 
 def _check_crowning(keys: SpurGearSpec, gear: SpurGear) -> None:
-    """Refuse teeth of a helix, or cut deeper, that are crowned, and crowning that leaves the faces no such tooth."""
+    """Refuse crowning of double helical teeth, of such cut deeper, and one that leaves the faces no such tooth."""
     if not keys.crowning:
         return
     from geometry.gears.teeth.crowning import has_form
@@ -255,7 +255,8 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
                 return moved_outline(gear, moved)[0]
             return chamfered_outline(gear, -moved, depth, max(chamfers))
 
-        return crowned_teeth(outline, thing, keys.crowning, keys.face_width, chamfers)
+        rate = 0.0 if shape.twist is None else shape.twist.rate
+        return crowned_teeth(outline, thing, keys.crowning, keys.face_width, chamfers, rate)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""

@@ -1395,12 +1395,14 @@ def test_rows_of_the_tables_are_refused_where_no_table_is_printed(angle: str, ro
     assert refused.value.numbers["other"] == angle.partition("=")[0]
 
 
-def test_a_crowned_gear_is_told_that_its_sizes_are_those_of_the_middle() -> None:
+@pytest.mark.parametrize("helix", [0.0, 25.0])
+def test_a_crowned_gear_is_told_that_its_sizes_are_those_of_the_middle(helix: float) -> None:
     """A calliper at a face reads what the same teeth thinned by the crowning have: nobody said so."""
-    words = ["module=2", "number_of_teeth=23"]
+    words = ["module=2", "number_of_teeth=23", f"helix_angle_deg={helix}", "face_width=20"]
+    transverse = math.atan(math.tan(math.radians(20)) / math.cos(math.radians(helix)))
     plain, crowned, face = (
         json.loads(calculate("spur", [*words, *more], "json", "en"))
-        for more in ([], ["crowning=0.02"], [f"circumferential_thinning={0.04 / math.cos(math.radians(20))}"])
+        for more in ([], ["crowning=0.02"], [f"circumferential_thinning={0.04 / math.cos(transverse)}"])
     )
     assert crowned["values"] == plain["values"]
     less = plain["values"]["span"] - face["values"]["span"]

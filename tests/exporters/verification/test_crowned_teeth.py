@@ -28,6 +28,7 @@ PARTS: dict[str, Keys] = {
     "undercut": GEAR | {"number_of_teeth": 9, "bore_diameter": 4.0, "crowning": 0.03, "tooth_mark": {},
                         "tip_chamfer": 0.1},
     "sector": GEAR | {"sector": {"teeth": 5}, "tip_rounding": 0.15},
+    "helical": GEAR | {"helix_angle_deg": 28.0, "hand": "left", "face_chamfer": {"above": 0.5}},
     # a chamfer beyond the middle, and below it crowning so low that one slice is enough: the bore ends there too
     "thin": {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 8, "profile_shift_coefficient": 0.207,
              "face_width": 0.3, "bore_diameter": 2.957, "face_chamfer": {"above": 0.21}, "crowning": 0.0001},
@@ -113,7 +114,7 @@ def refused(**keys: object) -> SceneError | None:
 
 @pytest.mark.parametrize(
     ("keys", "code"),
-    [({"helix_angle_deg": 10.0}, "not_crowned"),
+    [({"helix_angle_deg": 10.0, "double_helical": True}, "not_crowned"),
      ({"thinning_method": "deeper_cut", "circumferential_thinning": 0.1}, "not_crowned"),
      ({"crowning": 1.5}, "crowned_away"), ({"crowning": 0.8, "number_of_teeth": 11}, "crowned_away")],
 )  # fmt: skip

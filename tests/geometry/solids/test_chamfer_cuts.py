@@ -10,7 +10,7 @@ import pytest
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Label, Profile, Segment, circle
 from geometry.solids.body import Body, BodyBuilder
-from geometry.solids.chamfer import chamfer_bow, cut_chamfers, even_shares, level_shares, opening
+from geometry.solids.chamfer import chamfer_bow, cut_chamfers, even_shares, level_pieces, opening
 from geometry.solids.mass import body_moments
 from geometry.solids.plate import rounded
 
@@ -78,9 +78,9 @@ def test_lines_bow_as_sections_do(bow: float) -> None:
 
     body = chamfered(section, 1.0, 5.0)
     ((wall, whole, end),) = body.chamfers()
-    assert chamfer_bow(body, wall, whole, end) == pytest.approx(1.1 * abs(bow), rel=1e-9)
+    assert chamfer_bow(body, [(wall, whole, end)]) == pytest.approx(1.1 * abs(bow), rel=1e-9)
     count = math.ceil(math.sqrt(1.1 * abs(bow) / (0.25 * 0.01))) or 1
-    assert level_shares(body, 0.01) == pytest.approx([k / count for k in range(1, count + 1)])
+    assert level_pieces(body, 0.01)(wall, whole, end) == pytest.approx([k / count for k in range(1, count + 1)])
 
 
 def test_pieces_hold_what_the_chamfer_holds() -> None:

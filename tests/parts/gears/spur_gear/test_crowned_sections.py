@@ -18,19 +18,28 @@ GEAR: Keys = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "face_w
 
 @pytest.mark.parametrize("offset", [0.0, 0.03])
 @pytest.mark.parametrize(("below", "above"), [(0.0, 0.0), (0.3, 0.8)])
-def test_flanks_go_back_along_their_normals(below: float, above: float, offset: float) -> None:
-    """By c = C (2 z / b - 1)^2: each turns by c / r_b about the axis; a chamfer lowers the tips at its own end."""
+@pytest.mark.parametrize("helix", [0.0, -28.0])
+def test_flanks_go_back_along_their_normals(below: float, above: float, offset: float, helix: float) -> None:
+    """By c = C (2 z / b - 1)^2: each turns by c / r_b about the axis; a chamfer lowers the tips at its own end.
+
+    A helix turns the section by tan(beta) / r for each mm, but for its chamfers.
+    """
     keys = GEAR | {"face_chamfer": {"below": below, "above": above}}
+    if helix:
+        keys |= {"helix_angle_deg": -helix, "hand": "left"}
     body = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"].body(offset)
     assert isinstance(body, Body)
-    base, alpha = 23.0 * math.cos(math.radians(20)), math.radians(20)
+    turn, radius = math.radians(helix), 23.0 / math.cos(math.radians(helix))
+    alpha = math.atan(math.tan(math.radians(20)) / math.cos(turn))
+    base = radius * math.cos(alpha)
     for z in (0.1, 2.0, 6.0, 11.4):
         there = [wall for wall in body.walls if body.height(wall)[0] <= z <= body.height(wall)[1]]
         profile = max((body.standing(wall, z) for wall in there), key=lambda p: p.reach())
         depth = max(below - z, z - (WIDTH - above), 0.0)
-        assert profile.reach() == pytest.approx(25.0 + offset - depth, abs=0.01)
+        assert profile.reach() == pytest.approx(radius + 2 + offset - depth, abs=0.01)
         flanks = [s.curve for s in profile.segments() if s.label == Label.FLANK]
         points = np.concatenate([curve.point(np.linspace(curve.domain[0], curve.domain[1], 5)) for curve in flanks])
+        points *= np.exp(-1j * math.tan(turn) / radius * min(max(z, below), WIDTH - above))
         pressed = np.arccos(base / np.abs(points))
         half = math.pi / 46 + math.tan(alpha) - alpha - np.tan(pressed) + pressed
         moved = CROWNING * (2 * z / WIDTH - 1) ** 2 + depth - offset
