@@ -73,15 +73,7 @@ def scene_checks(
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
             if transmission:
                 _add_transmission(found, mate)
-            turns = [abs(turned) for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
-            if turns and isinstance(mate.mating, Touching):
-                # contact is held against a whole pitch, whatever part of it the drive runs through
-                found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
-            if way := _way(mate, placing.train, max(turns, default=0.0)):
-                if left := mate.mating.driven(*way):
-                    found["findings"] = [*found.get("findings", ()), *findings_told(language, left)]
-                for code, numbers in mate.mating.blocked(*way).items():
-                    found.setdefault("conditions", []).append(_condition(code, False, numbers, mate, told))
+            _add_driven(found, mate, placing.train, told)
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:
@@ -101,6 +93,19 @@ def scene_checks(
             for d, train, slid in zip(drives, placing.turns, placing.train.slid, strict=True)
         ]
     return checks
+
+
+def _add_driven(found: dict[str, Any], mate: PlacedMate, train: Train | None, told: _Teller) -> None:
+    """What a pair does on the way that its drive goes, or as it stands."""
+    turns = [abs(turned) for turned in train.rolled(mate.mating) if turned] if train is not None else []
+    if turns and isinstance(mate.mating, Touching):
+        # contact is held against a whole pitch, whatever part of it the drive runs through
+        found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
+    if way := _way(mate, train, max(turns, default=0.0)):
+        if left := mate.mating.driven(*way):
+            found["findings"] = [*found.get("findings", ()), *findings_told(told.language, left)]
+        for code, numbers in mate.mating.blocked(*way).items():
+            found.setdefault("conditions", []).append(_condition(code, False, numbers, mate, told))
 
 
 def pair_quantities(mating: Mating) -> dict[str, Any]:

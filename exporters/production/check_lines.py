@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby, product
 from types import MappingProxyType
 from typing import Any
@@ -95,48 +95,24 @@ def check_lines(
 
     ``brief``: of mates only pairs with a verdict, what is broken or noted; nothing of how solids were held.
     """
-    told, lines = words(language), []
+    told = words(language)
     named = [
         mate | {key: names.get(mate[key], mate[key]) for key in ("first", "second")} for mate in checks.get("mates", [])
     ]
-    for mate in _without_repeats([mate for mate in named if not brief or _says_more(mate)]):
-        text = told.say(_mate_head(mate))
-        if "total_contact_ratio" in mate:
-            text += told.text(", total {total:.4f}", total=mate["total_contact_ratio"])
-        if "verdict" in mate:
-            gap = told.text("least gap {gap:.2g} mm", gap=_seen(mate["gap"]))
-            text += f": {told.text(VERDICTS[mate['verdict']])}, {gap}"
-            if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
-                text += f"; {told.text('both part on their way')}"
-        if "walls" in mate:
-            walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
-            text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"
-        lines.append(text)
-        lines += [line for sector in mate.get("sectors", []) for line in _sector(sector, mate, told, names)]
-        lines += _transmission(mate, told)
-        lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
-        broken = [_condition(mate, c) for c in mate.get("conditions", []) if not c["met"]]
-        lines += [told.text("BROKEN: {text}", text=text) for text in broken]
+    lines = [
+        line
+        for mate in _without_repeats([mate for mate in named if not brief or _says_more(mate)])
+        for line in _mate(mate, told, names)
+    ]
     axles = (filled(OFF_CENTRE, **called(axle, names)) for axle in checks.get("axles", []))
     lines += [told.text("BROKEN: {text}", text=text) for text in axles]
     if "in_a_row" in checks:
         apart = ", ".join(names.get(name, name) for name in checks["in_a_row"])
         row = N_("note: neither `at` nor a mate places them, so they stand in a row: {names}")
         lines.append(told.text(row, names=apart))
-    near = sorted(checks.get("neighbours", []), key=lambda close: close["distance"] - close["sum_of_tip_radii"])
-    for close in near[:_MOST_TOLD]:
-        numbers = called(close, names) | {"value": close["distance"], "limit": close["sum_of_tip_radii"]}
-        lines.append(told.text("note: {text}", text=filled(CLOSE, **numbers)))
-    if (more := len(near) - _MOST_TOLD) > 0:
-        lines.append(told.text("note: {pairs} more may touch", pairs=pairs_counted(more)))
+    lines += _neighbours(checks.get("neighbours", []), told, names)
     drive = next((one["instance"] for one in checks.get("drives", [])), "")
-    solids = checks.get("solids", [])
-    for one in solids[:_MOST_TOLD]:
-        lines.append(f"{told.text(VERDICTS[one['verdict']])}: {overlap_told(one, told, names, drive)}")
-    for verdict, count in Counter(one["verdict"] for one in solids[_MOST_TOLD:]).items():
-        lines.append(
-            told.text("{verdict}: {pairs} more", verdict=Message(VERDICTS[verdict]), pairs=pairs_counted(count))
-        )
+    lines += _solids(checks.get("solids", []), told, names, drive)
     if "motion" in checks and not brief:
         lines += _motion(checks["motion"], told, names)
     if "workspace" in checks and not brief:
@@ -148,6 +124,48 @@ def check_lines(
         for found in checks["order"]["hindered"]:
             lines.append(f"{told.text(VERDICTS[found['verdict']])}: {hindered_told(found, told, names)}")
     return [*lines, *_drives(checks, names, told)]
+
+
+def _mate(mate: dict[str, Any], told: Words, names: Mapping[str, str]) -> Iterator[str]:
+    """A pair with its verdict, then what is noted and broken."""
+    text = told.say(_mate_head(mate))
+    if "total_contact_ratio" in mate:
+        text += told.text(", total {total:.4f}", total=mate["total_contact_ratio"])
+    if "verdict" in mate:
+        gap = told.text("least gap {gap:.2g} mm", gap=_seen(mate["gap"]))
+        text += f": {told.text(VERDICTS[mate['verdict']])}, {gap}"
+        if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
+            text += f"; {told.text('both part on their way')}"
+    if "walls" in mate:
+        walls = {wall: [_seen(gap) for gap in gaps] for wall, gaps in mate["walls"].items()}
+        text += f"; {told.text(_WALLS, **walls, clearance=mate['roller_clearance'])}"
+    yield text
+    for sector in mate.get("sectors", []):
+        yield from _sector(sector, mate, told, names)
+    yield from _transmission(mate, told)
+    for found in mate.get("findings", []):
+        yield told.text("note: {text}", text=found["text"])
+    for condition in mate.get("conditions", []):
+        if not condition["met"]:
+            yield told.text("BROKEN: {text}", text=_condition(mate, condition))
+
+
+def _neighbours(found: Sequence[Mapping[str, Any]], told: Words, names: Mapping[str, str]) -> Iterator[str]:
+    """Pairs that no mate joins and that may touch, the nearest first."""
+    near = sorted(found, key=lambda close: close["distance"] - close["sum_of_tip_radii"])
+    for close in near[:_MOST_TOLD]:
+        numbers = called(close, names) | {"value": close["distance"], "limit": close["sum_of_tip_radii"]}
+        yield told.text("note: {text}", text=filled(CLOSE, **numbers))
+    if (more := len(near) - _MOST_TOLD) > 0:
+        yield told.text("note: {pairs} more may touch", pairs=pairs_counted(more))
+
+
+def _solids(solids: Sequence[Mapping[str, Any]], told: Words, names: Mapping[str, str], drive: str) -> Iterator[str]:
+    """Overlaps of solids, the rest by their verdicts; ``drive``: the instance by whose turn poses are told."""
+    for one in solids[:_MOST_TOLD]:
+        yield f"{told.text(VERDICTS[one['verdict']])}: {overlap_told(one, told, names, drive)}"
+    for verdict, count in Counter(one["verdict"] for one in solids[_MOST_TOLD:]).items():
+        yield told.text("{verdict}: {pairs} more", verdict=Message(VERDICTS[verdict]), pairs=pairs_counted(count))
 
 
 def _sector(found: Mapping[str, Any], mate: Mapping[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
