@@ -9,11 +9,18 @@ import pytest
 
 from geometry.plane.profile import Label
 from geometry.solids.body import Body
+from geometry.solids.chamfer import cut_chamfers, level_pieces, opening
 from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import Keys
 
 WIDTH, CROWNING = 12.0, 0.06
 GEAR: Keys = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "face_width": WIDTH, "crowning": CROWNING}
+
+
+def body_of(offset: float = 0.0, **keys: object) -> Body:
+    body = make_parts(scene_from_dict({"parts": {"p": GEAR | keys}}, "s", "s"), "s")[0]["p"].body(offset)
+    assert isinstance(body, Body)
+    return body
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.03])
@@ -24,11 +31,8 @@ def test_flanks_go_back_along_their_normals(below: float, above: float, offset: 
 
     A helix turns the section by tan(beta) / r for each mm, but for its chamfers.
     """
-    keys = GEAR | {"face_chamfer": {"below": below, "above": above}}
-    if helix:
-        keys |= {"helix_angle_deg": -helix, "hand": "left"}
-    body = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"].body(offset)
-    assert isinstance(body, Body)
+    left: Keys = {"helix_angle_deg": -helix, "hand": "left"} if helix else {}
+    body = body_of(offset, face_chamfer={"below": below, "above": above}, **left)
     turn, radius = math.radians(helix), 23.0 / math.cos(math.radians(helix))
     alpha = math.atan(math.tan(math.radians(20)) / math.cos(turn))
     base = radius * math.cos(alpha)
@@ -46,3 +50,25 @@ def test_flanks_go_back_along_their_normals(below: float, above: float, offset: 
         pitch = math.tau / 23
         aside = np.abs(np.angle(points) - pitch * np.round(np.angle(points) / pitch))
         assert aside == pytest.approx(half - moved / base, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "more",
+    [{}, {"helix_angle_deg": 28.0}, {"number_of_teeth": 9, "crowning": 0.01},
+     {"crowning": 0.0, "face_chamfer": 0.8, "basic_rack": {"tip_radius_coefficient": 0.01}}],
+)  # fmt: skip
+def test_no_edge_opens_in_teeth_without_cusps(more: Keys) -> None:
+    """Neither at the joint of two teeth, where curves are smooth, nor by a corner of undercut that goes in by 0.01."""
+    body = body_of(**more)
+    chamfers = list(body.chamfers())
+    assert len(chamfers) == 2
+    assert [opening(body, *chamfer) for chamfer in chamfers] == [None, None]
+
+
+def test_slices_are_no_lower_than_a_file_tells() -> None:
+    """Undercut teeth of a helix, whose edges open in the chamfers: the lowest slice of a sector had 3e-6 mm."""
+    body = body_of(number_of_teeth=9, helix_angle_deg=39.8, crowning=0.003, face_chamfer=0.8)
+    assert any(opening(body, *chamfer) is not None for chamfer in body.chamfers())
+    levels = cut_chamfers(body, level_pieces(body, 1e-4)).levels()
+    assert len(levels) > 50
+    assert min(np.diff(levels)) > 1e-4 / 17
