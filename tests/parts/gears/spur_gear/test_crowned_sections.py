@@ -55,7 +55,8 @@ def test_flanks_go_back_along_their_normals(below: float, above: float, offset: 
 @pytest.mark.parametrize(
     "more",
     [{}, {"helix_angle_deg": 28.0}, {"number_of_teeth": 9, "crowning": 0.01},
-     {"crowning": 0.0, "face_chamfer": 0.8, "basic_rack": {"tip_radius_coefficient": 0.01}}],
+     {"crowning": 0.0, "profile_shift_coefficient": 0.4, "face_chamfer": 0.7,
+      "basic_rack": {"tip_radius_coefficient": 0.01}}],
 )  # fmt: skip
 def test_no_edge_opens_in_teeth_without_cusps(more: Keys) -> None:
     """Neither at the joint of two teeth, where curves are smooth, nor by a corner of undercut that goes in by 0.01."""
