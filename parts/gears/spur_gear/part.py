@@ -84,7 +84,8 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
 _TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=2e6, example=50.0)
 # mm, crowning that leaves every tooth its form
 _LEAST_CROWNING = 1e-6
-_CROWNING = mm("relief of each flank at both faces, none in the middle (C_beta): teeth are barrels", least=0, most=10)
+_CROWNING = mm("relief of each flank at both faces along the base tangent of the section, none in the middle (C_beta): "
+               "teeth are barrels", least=0, most=10)  # fmt: skip
 _PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x (xi in the sources)", least=-10, most=10)
 
 
