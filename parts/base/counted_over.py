@@ -18,14 +18,21 @@ def _of_diameter(diameter: float, keys: Mapping[str, Any]) -> float:
     return float(diameter * math.cos(helix) / keys["number_of_teeth"])
 
 
+def _half(diameter: float, _keys: Mapping[str, Any]) -> float:
+    return diameter / 2
+
+
+def _twice(radius: float, _keys: Mapping[str, Any]) -> float:
+    return radius * 2
+
+
 _MODULE_OF_PITCH: tuple[str, Rule] = ("module", lambda it, keys: it / math.pi)
 _MODULE_OF_INCHES: tuple[str, Rule] = ("module", lambda it, keys: INCH / it)
-_HALF_FOLLOWER: tuple[str, Rule] = ("follower_radius", lambda it, keys: it / 2)
-_WHOLE_ROLLER: tuple[str, Rule] = ("roller_diameter", lambda it, keys: it * 2)
-_BORE: tuple[str, Rule] = ("bore_diameter", lambda it, keys: it * 2)
 _PITCH_CIRCLE: list[tuple[str, Rule]] = [
     ("module", _of_diameter), ("diameter_quotient", lambda it, keys: it / keys["module"]),
 ]  # fmt: skip
+# a cycloidal disc has one lobe less than pins stand about it
+_LOBES: tuple[str, Rule] = ("number_of_lobes", lambda it, keys: it - 1)
 _TRANSMISSION: tuple[str, Rule] = ("least_transmission_angle_deg", lambda it, keys: 90.0 - it)
 # their word in small letters with "_" between words: ours, and how it follows from their number and the other keys
 RULES: dict[str, list[tuple[str, Rule]]] = {
@@ -41,14 +48,15 @@ RULES: dict[str, list[tuple[str, Rule]]] = {
     "reference_diameter": _PITCH_CIRCLE,
     "worm_diameter": _PITCH_CIRCLE[1:],
     "diameter": _PITCH_CIRCLE[1:],
-    "base_circle_diameter": [("base_circle_radius", lambda it, keys: it / 2)],
-    "base_diameter": [("base_circle_radius", lambda it, keys: it / 2)],
-    "roller_diameter": [_HALF_FOLLOWER],
-    "follower_diameter": [_HALF_FOLLOWER, ("roller_diameter", lambda it, keys: it)],
-    "roller_radius": [_WHOLE_ROLLER],
-    "follower_radius": [_WHOLE_ROLLER],
-    "bore_radius": [_BORE],
-    "shaft_radius": [_BORE],
+    "base_diameter": [("base_circle_radius", _half)],
+    "roller_diameter": [("follower_radius", _half)],
+    "follower_diameter": [("roller_diameter", lambda it, keys: it)],
+    "follower_radius": [("roller_diameter", _twice)],
+    "shaft_radius": [("bore_diameter", _twice)],
+    "outer_radius": [("tip_diameter", _twice)],
+    "number_of_pins": [_LOBES],
+    "pins": [_LOBES],
+    "radius": [("pitch_circle_diameter", _twice)],
     "max_pressure_angle": [_TRANSMISSION],
     "max_pressure_angle_deg": [_TRANSMISSION],
     "pressure_angle": [_TRANSMISSION],
@@ -61,7 +69,11 @@ def counted_over(word: str, value: object, known: Collection[str], keys: Mapping
 
     ``keys``: all that stands beside the word, which is ``value``.
     """
-    for ours, rule in RULES.get(word.strip().lower().replace(" ", "_").replace("-", "_"), []):
+    plain = word.strip().lower().replace(" ", "_").replace("-", "_")
+    # a radius where we have the diameter, or the other way round
+    halved = [(plain.replace("diameter", "radius"), _half)] if "diameter" in plain else []
+    twice = [(plain.replace("radius", "diameter"), _twice)] if "radius" in plain else []
+    for ours, rule in [*halved, *twice, *RULES.get(plain, [])]:
         if ours not in known or ours in keys or not isinstance(value, int | float) or isinstance(value, bool):
             continue
         try:
