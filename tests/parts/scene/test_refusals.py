@@ -839,6 +839,7 @@ def test_a_kind_that_is_no_text_is_unknown(kind: object) -> None:
         ("ширина вінця", ("width", "face_width"), "face_width"),
         ("КУТ_НАХИЛУ", ("pressure_angle_deg", "helix_angle_deg"), "helix_angle_deg"),
         ("бочкоподібність", ("crowning", "module"), "crowning"),
+        ("start_deg", ("angle_deg", "spacing_deg"), "angle_deg"),
         ("підйом", ("lift", "phases"), "lift"),
         ("черв’як", ("worm_wheel", "worm"), "worm"),
         ("черв'ячне колесо", ("worm", "worm_wheel"), "worm_wheel"),
