@@ -2,7 +2,8 @@
 
 At a height z each flank is relieved by C (2 z / b - 1)^2, along the base tangent of its section, as deviations of
 helices are measured (ISO 1328-1; ISO 21771: C_beta): an involute turns about the axis, and its fillet is that of the
-wider rack tooth, so that every section is exact. Helical teeth turn besides, but not in the chamfers of their faces.
+wider rack tooth, so that every section is exact. Helical teeth turn besides, but not in the chamfers of their faces;
+either half of double helical ones is crowned by itself.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from geometry.plane.profile import Profile
 from geometry.solids.wheel import inset_of
 
 if TYPE_CHECKING:
-    from geometry.solids.body import BodyBuilder
+    from geometry.solids.body import BodyBuilder, Twist
     from geometry.solids.wheel import Rim
 
 # reliefs and depths that differ by rounding only have one section, mm
@@ -49,12 +50,11 @@ def crowned_teeth(
     crowning: float,
     width: float,
     chamfers: tuple[float, float],
-    rate: float = 0.0,
+    twist: Twist | None = None,
 ) -> Rim:
     """Teeth relieved by ``crowning`` at both faces, with face chamfers below and above; mm.
 
-    ``outline`` makes that of a gear, moved out of the material and then cut so deep by a chamfer; ``rate``: rad/mm by
-    which a helix turns it.
+    ``outline`` makes that of a gear, moved out of the material and then cut so deep by a chamfer.
 
     Raises
     ------
@@ -62,6 +62,16 @@ def crowned_teeth(
         A chamfer leaves no tooth at a face.
     """
     below, above = chamfers
+    double = twist is not None and twist.double
+    half = width / 2 if double else width
+
+    def among(z: float) -> float:
+        """The height between the chamfers, which at a middle beyond one is its end: walls of the bore end with it."""
+        return min(max(z, below), width - above)
+
+    def along(z: float) -> float:
+        """How far along the helix, which goes back from the middle of double helical teeth on."""
+        return min(z, width - z) if double else z
 
     def rim(made: BodyBuilder, offset: float) -> tuple[int, int]:
         @lru_cache
@@ -70,16 +80,15 @@ def crowned_teeth(
 
         def at(z: float) -> Profile:
             depth = max(below - z, z - (width - above), 0.0)
-            upright = section(round(crowning * (2 * z / width - 1) ** 2, _DIGITS), round(depth, _DIGITS))
-            turn = rate * min(max(z, below), width - above)
+            upright = section(round(crowning * (2 * along(z) / half - 1) ** 2, _DIGITS), round(depth, _DIGITS))
+            turn = 0.0 if twist is None else twist.rate * along(among(z))
             return upright.placed(Placement2(turn)) if turn else upright
 
         for side, chamfer in (("below", below), ("above", above)):
             if chamfer:
                 inset_of(partial(outline, relieved(gear, crowning)), min(offset, 0.0), chamfer, side, "outline")
-        # a chamfer beyond the middle goes on with the crowning there: walls of the bore end with it
-        middle = min(max(below, width / 2), width - above)
-        levels = sorted({0.0, below, middle, width - above, width})
+        middles = (half / 2, half, width - half / 2) if double else (half / 2,)
+        levels = sorted({0.0, below, *map(among, middles), width - above, width})
         loops = [made.loop(at(z), z) for z in levels]
         for lower, upper in pairwise(loops):
             made.wall(lower, upper, at)

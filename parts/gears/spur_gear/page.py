@@ -59,7 +59,7 @@ def sheet(keys: SpurKeys) -> Sheet:
     measured_steps(page, gear, asked)
     if keys.crowning:
         less = 2 * keys.crowning * normal_share(gear.pressure_angle, helix)
-        page.note(N_("crowned teeth: their sizes are those in the middle of the face; "
+        page.note(N_("crowned teeth: their sizes are those where they are thickest; "
                      "at either face the span is {less:g} mm less"), less=less)  # fmt: skip
     page.notes += [finding_message(f) for f in rack_findings(keys, gear)]
     return page

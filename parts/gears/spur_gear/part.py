@@ -85,7 +85,7 @@ _TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=2e6
 # mm, crowning that leaves every tooth its form
 _LEAST_CROWNING = 1e-6
 _CROWNING = mm("relief of each flank at both faces along the base tangent of the section, none in the middle (C_beta): "
-               "teeth are barrels", least=0, most=10)  # fmt: skip
+               "teeth are barrels, double helical ones in either half", least=0, most=10)  # fmt: skip
 _PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x (xi in the sources)", least=-10, most=10)
 
 
@@ -140,14 +140,13 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
 
 
 def _idle(keys: SpurGearSpec) -> Iterator[ParameterError]:
-    """Crowning of double helical teeth, or of such that are cut deeper."""
-    for key, plain in (("double_helical", False), ("thinning_method", "wider_rack_tooth")):
-        if (given := getattr(keys, key)) != plain:
-            yield from in_vain(keys, ("crowning",), "not_crowned", key=key, given=given)
+    """Crowning of teeth that are cut deeper."""
+    if keys.thinning_method != "wider_rack_tooth":
+        yield from in_vain(keys, ("crowning",), "not_crowned", key="thinning_method", given=keys.thinning_method)
 
 
 def _check_crowning(keys: SpurGearSpec, gear: SpurGear) -> None:
-    """Refuse crowning of double helical teeth, of such cut deeper, and one that leaves the faces no such tooth."""
+    """Refuse crowning of teeth that are cut deeper, and one that leaves the faces no such tooth."""
     if not keys.crowning:
         return
     from geometry.gears.teeth.crowning import has_form
@@ -256,8 +255,7 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
                 return moved_outline(gear, moved)[0]
             return chamfered_outline(gear, -moved, depth, max(chamfers))
 
-        rate = 0.0 if shape.twist is None else shape.twist.rate
-        return crowned_teeth(outline, thing, keys.crowning, keys.face_width, chamfers, rate)
+        return crowned_teeth(outline, thing, keys.crowning, keys.face_width, chamfers, shape.twist)
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""

@@ -254,11 +254,6 @@ FORMS: list[tuple[dict[str, object], str, object]] = [
     ({**UNSIZED, "follower": "flat", "least_curvature_radius": 5.0}, "least_return_transmission_angle_deg", 50.0),
     (SWINGING, "follower_offset", 4.0),
     (
-        {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "helix_angle_deg": 20.0, "double_helical": True},
-        "crowning",
-        0.02,
-    ),
-    (
         {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 30, "flanges": {"diameter": 22.0}},
         "face_chamfer",
         0.2,

@@ -25,13 +25,16 @@ def body_of(offset: float = 0.0, **keys: object) -> Body:
 
 @pytest.mark.parametrize("offset", [0.0, 0.03])
 @pytest.mark.parametrize(("below", "above"), [(0.0, 0.0), (0.3, 0.8)])
-@pytest.mark.parametrize("helix", [0.0, -28.0])
-def test_flanks_go_back_along_their_normals(below: float, above: float, offset: float, helix: float) -> None:
+@pytest.mark.parametrize(("helix", "double"), [(0.0, False), (-28.0, False), (-28.0, True)])
+def test_flanks_go_back_along_their_normals(
+    below: float, above: float, offset: float, helix: float, double: bool
+) -> None:
     """By c = C (2 z / b - 1)^2: each turns by c / r_b about the axis; a chamfer lowers the tips at its own end.
 
-    A helix turns the section by tan(beta) / r for each mm, but for its chamfers.
+    A helix turns the section by tan(beta) / r for each mm, but for its chamfers; that of double helical teeth goes back
+    from the middle on, and each half is crowned by itself.
     """
-    left: Keys = {"helix_angle_deg": -helix, "hand": "left"} if helix else {}
+    left: Keys = {"helix_angle_deg": -helix, "hand": "left", "double_helical": double} if helix else {}
     body = body_of(offset, face_chamfer={"below": below, "above": above}, **left)
     turn, radius = math.radians(helix), 23.0 / math.cos(math.radians(helix))
     alpha = math.atan(math.tan(math.radians(20)) / math.cos(turn))
@@ -43,10 +46,11 @@ def test_flanks_go_back_along_their_normals(below: float, above: float, offset: 
         assert profile.reach() == pytest.approx(radius + 2 + offset - depth, abs=0.01)
         flanks = [s.curve for s in profile.segments() if s.label == Label.FLANK]
         points = np.concatenate([curve.point(np.linspace(curve.domain[0], curve.domain[1], 5)) for curve in flanks])
-        points *= np.exp(-1j * math.tan(turn) / radius * min(max(z, below), WIDTH - above))
+        between, width = min(max(z, below), WIDTH - above), WIDTH / 2 if double else WIDTH
+        points *= np.exp(-1j * math.tan(turn) / radius * (min(between, WIDTH - between) if double else between))
         pressed = np.arccos(base / np.abs(points))
         half = math.pi / 46 + math.tan(alpha) - alpha - np.tan(pressed) + pressed
-        moved = CROWNING * (2 * z / WIDTH - 1) ** 2 + depth - offset
+        moved = CROWNING * (2 * (z % width) / width - 1) ** 2 + depth - offset
         pitch = math.tau / 23
         aside = np.abs(np.angle(points) - pitch * np.round(np.angle(points) / pitch))
         assert aside == pytest.approx(half - moved / base, abs=1e-9)
