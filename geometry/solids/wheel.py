@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from geometry.base.both import both
-from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
+from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit, rounded
 from geometry.base.nearest import nearest
 from geometry.base.record import Record
 from geometry.base.tolerance import LEAST_SEGMENT_MM
@@ -79,6 +79,17 @@ class WheelShape(Record):
         """Whether the wheel is its section and nothing else; so it is where a hub stands out nowhere."""
         hub = self.hub is not None and (self.hub.below or self.hub.above)
         return not (self.web or hub or self.chamfer_below or self.chamfer_above)
+
+    def covered(self, root_radius: float) -> tuple[bool, bool]:
+        """Below and above: whether the hub is a flange over the ends of the teeth, which have no chamfer there."""
+        if (hub := self.hub) is None or hub.diameter / 2 <= root_radius:
+            return False, False
+        return hub.below > 0, hub.above > 0
+
+    def rim_chamfers(self, root_radius: float) -> tuple[float, float]:
+        """Heights of the chamfers of the teeth below and above, mm."""
+        below, above = self.covered(root_radius)
+        return 0.0 if below else self.chamfer_below, 0.0 if above else self.chamfer_above
 
 
 # a boundary moved ``offset`` mm out of the material and then cut ``depth`` mm into it, segment for segment
@@ -186,6 +197,7 @@ class _Wheel:
         # on each side: whether the web lies below the rim, and the hub stands out of the web
         self.recessed = both(web != rim for web, rim in zip(self.web, self.rim, strict=True))
         self.stepped = both(hub != web for hub, web in zip(self.hub, self.web, strict=True))
+        self.covered = shape.covered(sections.root_radius)
         self.made = BodyBuilder()
         self.holes: list[tuple[int, int]] = []
 
@@ -196,7 +208,8 @@ class _Wheel:
         if self.sections.rim is not None:
             outline = self.sections.rim(self.made, self.offset)
         else:
-            outline = self._run(self.sections.outline, self.rim, (True, True), "outline", around)
+            free = both(not covered for covered in self.covered)
+            outline = self._run(self.sections.outline, self.rim, free, "outline", around)
         self.holes = [self._run(hole, self.web, whole, "hole") for hole in self.sections.holes]
         bore = None
         if self.sections.bore is not None:
@@ -216,6 +229,9 @@ class _Wheel:
             assert self.hub_circle is not None
             foot, end = self._step(self.hub_circle, side, self.web[side], self.hub[side])
             self.made.cap(end, inside, up=up)
+            if self.covered[side]:
+                self.made.cap(foot, [outline], up=not up)
+                return
             inside = [foot]
         inside += [hole[side] for hole in self.holes]
         if self.recessed[side]:
@@ -302,10 +318,17 @@ def inset_of(profile: Boundary, offset: float, chamfer: float, side: str, who: s
     raise ParameterError(f"face_chamfer.{side}", chamfer, f"chamfer_leaves_nothing_of_{who}", cure)
 
 
-def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles, edge: str = "root_circle") -> None:
+def check_wheel(
+    shape: WheelShape,
+    root_diameter: float,
+    holes: HubHoles,
+    edge: str = "root_circle",
+    tip_diameter: float = math.inf,
+) -> None:
     """Refuse a shape whose diameters do not fit between bore, holes and root circle; chamfers the body refuses.
 
-    ``edge``: what ends the faces in place of the root circle, as the codes of refusals have it.
+    ``edge``: what ends the faces in place of the root circle, as the codes of refusals have it; ``tip_diameter``:
+    beyond which a hub may cover the ends of all teeth, mm.
 
     Raises
     ------
@@ -315,7 +338,15 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles, edge: 
     web, hub = shape.web, shape.hub
     inner, outer = (2 * r for r in holes.beside_bore())
     if hub is not None:
-        _between("hub.diameter", hub.diameter, (2 * holes.bore_reach, "bore"), (root_diameter, edge))
+        covers = web is None and hub.below + hub.above > 0
+        most, flange = root_diameter - _LEAST_STEP, math.inf
+        if covers and tip_diameter < math.inf:
+            flange = rounded(tip_diameter + _LEAST_STEP, up=True, digits=4)
+        if most < hub.diameter < flange < math.inf:
+            numbers = {"diameter": root_diameter, "flange": flange}
+            raise ParameterError("hub.diameter", hub.diameter, "reaches_teeth", limit(most, hub.diameter), **numbers)
+        high = math.inf if hub.diameter >= flange else root_diameter
+        _between("hub.diameter", hub.diameter, (2 * holes.bore_reach, "bore"), (high, edge))
         _between("hub.diameter", hub.diameter, (0.0, ""), (inner, "holes"))
     if web is not None:
         core = (hub.diameter, "hub") if hub else (2 * holes.bore_reach, "bore")

@@ -134,9 +134,6 @@ def seen_within(hub: Hub | None, bore: Bore | None, turn: float) -> Iterator[Str
     """The walls and axes of all holes, hidden in a hub that is seen along its axis, from above."""
     if hub is None or bore is None:
         return
-    if hub.set_screws and not hub.above:
-        # where they end
-        yield HIDDEN, Arc(0j, hub.diameter / 2, 0.0, math.tau)
     for hole in hub.set_screws:
         inner, way = mouth_in_bore(bore, hole), cmath.rect(1.0, hole.angle + turn)
         assert inner is not None

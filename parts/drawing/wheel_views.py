@@ -29,6 +29,7 @@ from parts.drawing.places import apart, circled, place_sizes
 from parts.drawing.revolved import Loop, below, block, closed, outlined, seen_edges
 from parts.drawing.working import (
     AXIS,
+    HIDDEN,
     THIN,
     TURNED,
     VISIBLE,
@@ -121,6 +122,11 @@ class Wheel(Record):
     def reference(self) -> float | None:
         """Radius of its pitch line, which may be a circle that is shown with its size."""
         return self.pitch or next((one.radius for one in self.rounds if one.name == PITCH), None)
+
+    @property
+    def covered(self) -> tuple[bool, bool]:
+        """Below and above: whether its hub is a flange over the ends of its teeth."""
+        return self.shape.covered(self.root or max(self.tip))
 
     @property
     def sunk(self) -> tuple[Groove, ...]:
@@ -317,7 +323,7 @@ def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[com
             radius = shape.web.rim_diameter / 2
             points += [complex(at.web[side], radius), complex(at.rim[side] - way * cut, radius)]
             points += [complex(at.rim[side], radius + cut)]
-        deep, wide = (0.0, 0.0) if toothed else wheel.bevel or (cut, cut)
+        deep, wide = (0.0, 0.0) if toothed or wheel.covered[side] else wheel.bevel or (cut, cut)
         # of a groove that runs out at this face
         top = next((g.radius for g in wheel.grooves if (g.low, g.high)[side] == at.rim[side]), outer)
         points += [complex(at.rim[side], top - deep), complex(at.rim[side] - way * wide, top)]
@@ -407,6 +413,9 @@ def _rim_spots(wheel: Wheel) -> tuple[Spot, ...]:
 def _face_spots(wheel: Wheel) -> tuple[Spot, ...]:
     """Places on the upper end face of the rim above and below the axis, between its inner edge and teeth or outside."""
     shape, bores = wheel.shape, bore_radii(wheel.holes.bore)
+    if shape.hub is not None and wheel.covered[1]:
+        end = levels(shape).hub[1]
+        return spots(complex(end, shape.hub.diameter / 2), complex(end, max(bores)), 1 + 0j)
     inner = max(*bores, shape.hub.diameter / 2 if shape.hub else 0.0, shape.web.rim_diameter / 2 if shape.web else 0.0)
     outer = min(*wheel.tip, wheel.root or math.inf)
     return spots(complex(shape.face_width, outer), complex(shape.face_width, inner), 1 + 0j)
@@ -475,7 +484,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
 
     up, down = wheel.tip
     if up == down and (wheel.stands or wheel.outline is None):
-        diameter("tip_diameter", 2 * up, shape.chamfer_below, "left", wishes.tip)
+        below, above = shape.chamfer_below, width - shape.chamfer_above
+        diameter("tip_diameter", 2 * up, *((above, "right") if wheel.covered[0] else (below, "left")), wishes.tip)
     if (crown := wheel.crown) is not None:
         throat = crown.distance - crown.throat
         diameter("throat_diameter", 2 * throat, width / 2, "right")
@@ -509,17 +519,21 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         diameter("bore_diameter", bore.diameter, at.hub[1], "right", wishes.bore)
     foot = -1j * max([down, *_beyond(wheel, -1)])
     found.append(Size("face_width", foot, width + foot, "below", "", wishes.width))
-    return found + _chamfer_sizes(shape, closed(_half(wheel, bore_radii(bore)[0], up, toothed=False)), up, subject)
+    half = closed(_half(wheel, bore_radii(bore)[0], up, toothed=False))
+    edges = [complex(z, up) for z in at.rim]
+    if shape.hub is not None:
+        edges = [complex(at.hub[k], shape.hub.diameter / 2) if wheel.covered[k] else edges[k] for k in (0, 1)]
+    return found + _chamfer_sizes(shape, half, edges, subject)
 
 
-def _chamfer_sizes(shape: WheelShape, half: Sequence[Line], outer: float, subject: Subject) -> list[Size]:
-    """The chamfers of ``half`` a section at its ``outer`` edges, each with how many are like it."""
+def _chamfer_sizes(shape: WheelShape, half: Sequence[Line], edges: Sequence[complex], subject: Subject) -> list[Size]:
+    """The chamfers of ``half`` a section at its outer ``edges`` below and above, each with how many are like it."""
     found = []
-    for name, cut, z, way in (
-        ("above", shape.chamfer_above, shape.face_width, -1), ("below", shape.chamfer_below, 0.0, 1),
+    for name, cut, edge, way in (
+        ("above", shape.chamfer_above, edges[1], -1), ("below", shape.chamfer_below, edges[0], 1),
     ):  # fmt: skip
         if cut and not (name == "below" and cut == shape.chamfer_above):
-            ends = complex(z + way * cut, outer), complex(z, outer)
+            ends = edge + way * cut, edge
             lines = [line.end - line.start for line in half]
             count = sum(abs(abs(d.real) - cut) + abs(abs(d.imag) - cut) < _NONE for d in lines)
             words = counted_words(subject.language, "chamfers_of", count)
@@ -531,7 +545,8 @@ def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> 
     """Signs of roughness of the teeth, or of the outside, and of the bore, whose wall stands at a height."""
     found = []
     if wheel.reference is not None and not wheel.sunk:
-        found.append(subject.worked(complex(wheel.shape.face_width, wheel.reference), goes_on=True))
+        width, free = wheel.shape.face_width, not wheel.covered[1]
+        found.append(subject.worked(complex(width if free else width / 2, wheel.reference), goes_on=free))
     elif wheel.runs or (not wheel.stands and wheel.outline is not None):
         found.append(subject.worked(complex(0.7 * wheel.shape.face_width, wheel.tip[0])))
     if wheel.holes.bore is not None:
@@ -572,7 +587,9 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     turn, tip = wheel.turn, max(wheel.tip)
     placement = Placement2(turn)
     strokes: list[Stroke] = []
-    if wheel.outline is None:
+    if wheel.covered[1]:
+        strokes += [(HIDDEN, circle_of(tip))]
+    elif wheel.outline is None:
         strokes += [(VISIBLE, circle_of(tip))]
     elif wheel.pitch is None or wheel.kept:
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in wheel.outline.segments()]
@@ -582,8 +599,10 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     if wheel.pitch is not None:
         strokes += [(AXIS, arc) for arc in pitch_arcs(wheel.pitch, wheel.kept, turn)]
     shape, at = wheel.shape, levels(wheel.shape)
-    if shape.hub is not None and at.hub[1] > at.web[1]:
-        strokes.append((VISIBLE, circle_of(shape.hub.diameter / 2)))
+    if (hub := shape.hub) is not None:
+        seen = at.hub[1] > at.web[1] or wheel.covered[0]
+        # holes across it end there
+        strokes += [(VISIBLE if seen else HIDDEN, circle_of(hub.diameter / 2))] if seen or hub.set_screws else []
     if shape.web is not None and at.web[1] < at.rim[1]:
         strokes.append((VISIBLE, circle_of(shape.web.rim_diameter / 2)))
     if wheel.outline is not None:
@@ -619,7 +638,8 @@ def pitch_arcs(radius: float, kept: Sequence[tuple[float, float]], turn: float) 
 
 def _face_axes(wheel: Wheel) -> tuple[Line, Line]:
     """The axes of a face: from side to side of it, and of the circles about it that are shown."""
-    rim = max(wheel.tip)
+    hub = wheel.shape.hub
+    rim = max(*wheel.tip, hub.diameter / 2 if hub is not None and any(wheel.covered) else 0.0)
     if (wheel.stands and not wheel.kept) or wheel.outline is None:
         return axis_cross(rim)
     least = max((one.radius for one in wheel.rounds), default=0.0)
@@ -818,7 +838,10 @@ def ring_section(
         Size("outer_diameter", complex(low, -outer), complex(low, outer), "left", "Ø", wishes.tip),
         Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
     ]
-    sizes += [*circle_sizes(holes, 0.0, 0.0), *_chamfer_sizes(shape, half(radii[0]), outer, subject)]
+    sizes += [
+        *circle_sizes(holes, 0.0, 0.0),
+        *_chamfer_sizes(shape, half(radii[0]), (1j * outer, width + 1j * outer), subject),
+    ]
     return View(tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), tuple(sizes))
 
 

@@ -130,7 +130,8 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
     try:
         gear = checked_gear(gear_of(keys), helix.angle)
         check_face_chamfer(keys.face_chamfer, helix_of(keys), gear)
-        check_wheel(shape_of(keys), 2 * gear.core_radius, _about_axis(gear))
+        tips = math.inf if gear.sector is not None else 2 * gear.tip_radius
+        check_wheel(shape_of(keys), 2 * gear.core_radius, _about_axis(gear), tip_diameter=tips)
         _check_crowning(keys, gear)
     except ParameterError as refusal:
         whole = LateError(refusal.code, partial(_whole, keys, refusal))
@@ -248,7 +249,7 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
             return None
         from geometry.gears.teeth.crowning import crowned_teeth
 
-        chamfers = shape.chamfer_below, shape.chamfer_above
+        chamfers = shape.rim_chamfers(thing.core_radius)
 
         def outline(gear: SpurGear, moved: float, depth: float) -> Profile:
             if max(chamfers) == 0:
