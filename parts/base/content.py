@@ -6,6 +6,8 @@ import errno
 import os
 from pathlib import Path, PurePosixPath
 
+from parts.base.texts import N_, Message
+
 
 class NotAFileError(OSError):
     """A pipe, which might never begin, or a device, which might never end."""
@@ -20,7 +22,7 @@ def content(path: Path, most: int) -> bytes:
         It cannot be read; ``NotAFileError``: it is none.
     """
     if path.exists() and not path.is_file() and not path.is_dir():
-        raise NotAFileError(errno.EINVAL, "a pipe or a device, not a file", str(path))
+        raise NotAFileError(errno.EINVAL, N_("a pipe or a device, not a file"), str(path))
     with path.open("rb") as stream:
         return stream.read(min(most, os.fstat(stream.fileno()).st_size) + 1)
 
@@ -48,5 +50,5 @@ def content_beside(name: str, folder: Path, most: int) -> bytes:
         raise ParameterError("file", name, "no_such_file") from None
     except (NotAFileError, OSError, ValueError) as error:
         raise ParameterError(
-            "file", name, "unreadable", None, why=getattr(error, "strerror", None) or str(error)
+            "file", name, "unreadable", None, why=Message(getattr(error, "strerror", None) or str(error))
         ) from None

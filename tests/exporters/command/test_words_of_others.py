@@ -123,6 +123,14 @@ def test_what_slicers_call_an_offset_leads_to_it(tmp_path: Path, capsys: pytest.
     assert "did you mean offset?" in capsys.readouterr().err
 
 
+def test_a_speed_of_a_drive_is_its_turns(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It was sent to the exports."""
+    scene = write_scene(tmp_path / "s.toml", {"g": _SPUR | {"module": 2.0}}, [{"format": "stl"}])
+    scene.write_text(scene.read_text("utf-8") + '[[drives]]\ninstance = "g"\nrpm = 10\n', "utf-8")
+    assert run("check", scene) == 2
+    assert capsys.readouterr().err.endswith("did you mean turns?\n")
+
+
 def test_the_driven_one_of_a_pair_is_the_mate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     gear = {"kind": "noncircular_gear", "module": 2.0, "number_of_teeth": 30, "centrode": "oval", "axis_ratio": 1.4}
     assert told(tmp_path, capsys, gear | {"role": "driven"}).endswith("did you mean mate?\n")

@@ -89,6 +89,15 @@ motion_table = { file = "lift.csv" }
     assert tables == [ROWS]
 
 
+def test_a_folder_is_refused_in_the_language_of_the_scene(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The disk's own words stood there in English."""
+    (tmp_path / "lift.csv").mkdir()
+    head = '[scene]\nlanguage = "uk"\n'
+    (tmp_path / "s.toml").write_text(head + _CAM.format(table='{ file = "lift.csv" }'), "utf-8")
+    assert main(["check", str(tmp_path / "s.toml")]) == 2
+    assert capsys.readouterr().err.endswith('motion_table.file = "lift.csv": не читається: це тека\n')
+
+
 @pytest.mark.parametrize(
     ("name", "raw", "code", "numbers"),
     [
