@@ -80,15 +80,23 @@ class WheelShape(Record):
         hub = self.hub is not None and (self.hub.below or self.hub.above)
         return not (self.web or hub or self.chamfer_below or self.chamfer_above)
 
-    def covered(self, root_radius: float) -> tuple[bool, bool]:
+    def covered(self, tip_radius: float) -> tuple[bool, bool]:
         """Below and above: whether the hub is a flange over the ends of the teeth, which have no chamfer there."""
-        if (hub := self.hub) is None or hub.diameter / 2 <= root_radius:
+        if (hub := self.hub) is None or hub.diameter / 2 <= tip_radius:
             return False, False
         return hub.below > 0, hub.above > 0
 
-    def rim_chamfers(self, root_radius: float) -> tuple[float, float]:
+    def hub_on_faces(self) -> tuple[bool, bool]:
+        """Below and above: whether the hub stands out of a face, not of a recess."""
+        if (hub := self.hub) is None:
+            return False, False
+        room = 0.0 if self.web is None else (self.face_width - self.web.thickness) / 2
+        shift = 0.0 if self.web is None else self.web.shift
+        return (hub.below > 0 and room + shift <= _LEAST_HEIGHT), (hub.above > 0 and room - shift <= _LEAST_HEIGHT)
+
+    def rim_chamfers(self, tip_radius: float) -> tuple[float, float]:
         """Heights of the chamfers of the teeth below and above, mm."""
-        below, above = self.covered(root_radius)
+        below, above = self.covered(tip_radius)
         return 0.0 if below else self.chamfer_below, 0.0 if above else self.chamfer_above
 
 
@@ -108,6 +116,8 @@ class WheelSections(Record):
     toothed_bore: bool = False
     # the walls of what is not one outline from face to face, moved; gives the loops at both faces
     rim: Rim | None = None
+    # beyond it a hub covers the ends of the teeth
+    tip_radius: float = math.inf
 
 
 def wheel_sections(outline: Boundary, root_radius: float, holes: HubHoles) -> WheelSections:
@@ -161,9 +171,12 @@ def _check_heights(shape: WheelShape) -> None:
 def _check_chamfers(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
     """Chamfers leave some wall between them, and with the offset an end face between every two boundaries."""
     _check_wall(shape.face_width, (shape.chamfer_below, shape.chamfer_above), "outline")
-    for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
-        if not _leaves_faces(shape, root_radius, holes, offset, depth):
-            cure = partial(nearest, partial(_leaves_faces, shape, root_radius, holes, offset), depth, 0.0)
+    for side, depth, hub in zip(
+        ("below", "above"), (shape.chamfer_below, shape.chamfer_above), shape.hub_on_faces(), strict=True
+    ):
+        leaves = partial(_leaves_faces, shape, root_radius, holes, offset, beside_hub=hub)
+        if not leaves(depth):
+            cure = partial(nearest, leaves, depth, 0.0)
             raise ParameterError(f"face_chamfer.{side}", depth, "leaves_no_face_between_edges", cure)
 
 
@@ -197,7 +210,7 @@ class _Wheel:
         # on each side: whether the web lies below the rim, and the hub stands out of the web
         self.recessed = both(web != rim for web, rim in zip(self.web, self.rim, strict=True))
         self.stepped = both(hub != web for hub, web in zip(self.hub, self.web, strict=True))
-        self.covered = shape.covered(sections.root_radius)
+        self.covered = shape.covered(sections.tip_radius)
         self.made = BodyBuilder()
         self.holes: list[tuple[int, int]] = []
 
@@ -376,8 +389,10 @@ def _check_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset:
         raise ParameterError("offset", offset, "leaves_no_face_between_edges", partial(nearest, fits, offset, 0.0))
 
 
-def _leaves_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float, depth: float) -> bool:
-    """Whether every ring of the end faces, and the floor of a recess, keeps some width."""
+def _leaves_faces(
+    shape: WheelShape, root_radius: float, holes: HubHoles, offset: float, depth: float, *, beside_hub: bool = False
+) -> bool:
+    """Whether every ring of the end faces, and the floor of a recess, keeps some width; one ``beside_hub`` too."""
     inset = depth - offset
     try:
         wide = holes.widened(max(inset, 0.0))
@@ -387,6 +402,8 @@ def _leaves_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset
     rings = [(max(wide.bore_reach, outer), root_radius - inset)]
     if shape.hub is not None:
         rings += [(wide.bore_reach, shape.hub.diameter / 2 - inset), (shape.hub.diameter / 2 + offset, inner)]
+        if beside_hub and shape.hub.diameter / 2 < root_radius:
+            rings.append((shape.hub.diameter / 2 + offset, root_radius - inset))
     if shape.web is not None:
         core = shape.hub.diameter / 2 + offset if shape.hub else wide.bore_reach
         rings += [

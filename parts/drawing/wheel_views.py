@@ -126,7 +126,7 @@ class Wheel(Record):
     @property
     def covered(self) -> tuple[bool, bool]:
         """Below and above: whether its hub is a flange over the ends of its teeth."""
-        return self.shape.covered(self.root or max(self.tip))
+        return self.shape.covered(max(self.tip))
 
     @property
     def sunk(self) -> tuple[Groove, ...]:

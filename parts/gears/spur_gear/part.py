@@ -239,7 +239,8 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
             return chamfered_outline(thing, -moved, depth, max(deepest, depth))
 
         sections = wheel_sections(lru_cache(maxsize=8)(outline), thing.core_radius, thing.holes)
-        sections = replace(sections, core=_about_axis(thing), rim=self._crowned(keys, thing, shape))
+        sections = replace(sections, core=_about_axis(thing), rim=self._crowned(keys, thing, shape),
+                           tip_radius=thing.tip_radius)  # fmt: skip
         body = wheel_body(shape, sections, offset)
         return engraved(body, _marks(keys, thing), keys.face_width)
 
@@ -249,7 +250,7 @@ class SpurGearKind(ToothedKind[SpurGearSpec, SpurGear]):
             return None
         from geometry.gears.teeth.crowning import crowned_teeth
 
-        chamfers = shape.rim_chamfers(thing.core_radius)
+        chamfers = shape.rim_chamfers(thing.tip_radius)
 
         def outline(gear: SpurGear, moved: float, depth: float) -> Profile:
             if max(chamfers) == 0:

@@ -118,3 +118,13 @@ def test_a_mate_that_reaches_under_the_hub_is_found(tmp_path: Path, width: float
     mate = table("[[mates]]", {"kind": "external_gear_pair", "first": "pinion", "second": "wheel"})
     parts = {"pinion": GEAR | HUBS["above"], "wheel": wheel}
     assert run("check", write_scene(tmp_path / "s.toml", parts, EXPORTS, mate)) == code
+
+
+@pytest.mark.parametrize(
+    ("chamfer", "code"),
+    [({"above": 0.3}, 2), ({"above": 0.02424}, 0), ({"above": 0.0253}, 2), ({"below": 0.3}, 0)],
+)
+def test_a_chamfer_does_not_go_under_the_hub(tmp_path: Path, chamfer: Keys, code: int) -> None:
+    """Roots of 10.3 less two chamfers are within a hub of 10.2: the STEP was no valid solid, and nobody said so."""
+    gear = GEAR | {"hub": {"diameter": 10.2, "above": 7.0}, "face_chamfer": chamfer}
+    assert run("build", write_scene(tmp_path / "s.toml", {"g": gear}, EXPORTS[1:2]), "--out", tmp_path) == code
