@@ -59,6 +59,24 @@ class Hub(Record):
     set_screws: tuple[CrossHole, ...] = ()
 
 
+class Levels(Record):
+    """Both ends of rim, web and hub along the axis, mm."""
+
+    rim: tuple[float, float]
+    web: tuple[float, float]
+    hub: tuple[float, float]
+
+    @property
+    def recessed(self) -> tuple[bool, bool]:
+        """Below and above: whether the web lies deeper than the rim."""
+        return both(web != rim for web, rim in zip(self.web, self.rim, strict=True))
+
+    @property
+    def stepped(self) -> tuple[bool, bool]:
+        """Below and above: whether the hub stands out of the web."""
+        return both(hub != web for hub, web in zip(self.hub, self.web, strict=True))
+
+
 class WheelShape(Record):
     """What turns the section of a wheel into a solid, lengths in mm; lower face of the rim at z = 0.
 
@@ -80,19 +98,21 @@ class WheelShape(Record):
         hub = self.hub is not None and (self.hub.below or self.hub.above)
         return not (self.web or hub or self.chamfer_below or self.chamfer_above)
 
+    @property
+    def levels(self) -> Levels:
+        """Where rim, web and hub begin and end; what differs by a step that no file shows is one."""
+        width, web, hub = self.face_width, self.web, self.hub
+        middle = width / 2 + (web.shift if web else 0.0)
+        half = (web.thickness if web else width) / 2
+        disk = _snapped(middle - half, 0.0), _snapped(middle + half, width)
+        return Levels(
+            (0.0, width), disk, (_snapped(-hub.below, 0.0), _snapped(width + hub.above, width)) if hub else disk
+        )
+
     def covered(self, tip_radius: float) -> tuple[bool, bool]:
         """Below and above: whether the hub is a flange over the ends of the teeth, which have no chamfer there."""
-        if (hub := self.hub) is None or hub.diameter / 2 <= tip_radius:
-            return False, False
-        return hub.below > 0, hub.above > 0
-
-    def hub_on_faces(self) -> tuple[bool, bool]:
-        """Below and above: whether the hub stands out of a face, not of a recess."""
-        if (hub := self.hub) is None:
-            return False, False
-        room = 0.0 if self.web is None else (self.face_width - self.web.thickness) / 2
-        shift = 0.0 if self.web is None else self.web.shift
-        return (hub.below > 0 and room + shift <= _LEAST_HEIGHT), (hub.above > 0 and room - shift <= _LEAST_HEIGHT)
+        wide = self.hub is not None and self.hub.diameter / 2 > tip_radius
+        return both(wide and stepped for stepped in self.levels.stepped)
 
     def rim_chamfers(self, tip_radius: float) -> tuple[float, float]:
         """Heights of the chamfers of the teeth below and above, mm."""
@@ -171,10 +191,9 @@ def _check_heights(shape: WheelShape) -> None:
 def _check_chamfers(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
     """Chamfers leave some wall between them, and with the offset an end face between every two boundaries."""
     _check_wall(shape.face_width, (shape.chamfer_below, shape.chamfer_above), "outline")
-    for side, depth, hub in zip(
-        ("below", "above"), (shape.chamfer_below, shape.chamfer_above), shape.hub_on_faces(), strict=True
-    ):
-        leaves = partial(_leaves_faces, shape, root_radius, holes, offset, beside_hub=hub)
+    depths, at = (shape.chamfer_below, shape.chamfer_above), shape.levels
+    for side, depth, stepped, recessed in zip(("below", "above"), depths, at.stepped, at.recessed, strict=True):
+        leaves = partial(_leaves_faces, shape, root_radius, holes, offset, beside_hub=stepped and not recessed)
         if not leaves(depth):
             cure = partial(nearest, leaves, depth, 0.0)
             raise ParameterError(f"face_chamfer.{side}", depth, "leaves_no_face_between_edges", cure)
@@ -197,19 +216,13 @@ class _Wheel:
 
         self.upright = Twist()
         self.sections, self.offset, self.twist = sections, offset, shape.twist
-        width, web, hub = shape.face_width, shape.web, shape.hub
-        self.rim = (0.0, width)
-        middle = width / 2 + (web.shift if web else 0.0)
-        half = (web.thickness if web else width) / 2
-        self.web = (_snapped(middle - half, 0.0), _snapped(middle + half, width))
-        self.hub = (_snapped(-hub.below, 0.0), _snapped(width + hub.above, width)) if hub else self.web
+        web, hub, at = shape.web, shape.hub, shape.levels
+        self.rim, self.web, self.hub = at.rim, at.web, at.hub
         self.chamfer = (_snapped(shape.chamfer_below, 0.0), _snapped(shape.chamfer_above, 0.0))
         self.hub_circle = circle(hub.diameter / 2 + offset, Label.HUB) if hub else None
         recess = web is not None and self.web != self.rim
         self.rim_circle = circle(web.rim_diameter / 2 - offset, Label.RIM, hole=True) if web and recess else None
-        # on each side: whether the web lies below the rim, and the hub stands out of the web
-        self.recessed = both(web != rim for web, rim in zip(self.web, self.rim, strict=True))
-        self.stepped = both(hub != web for hub, web in zip(self.hub, self.web, strict=True))
+        self.recessed, self.stepped = at.recessed, at.stepped
         self.covered = shape.covered(sections.tip_radius)
         self.made = BodyBuilder()
         self.holes: list[tuple[int, int]] = []

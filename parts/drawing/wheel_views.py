@@ -21,7 +21,7 @@ from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, Round
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.keyways import depth_deviation
 from geometry.solids.splines import SplineBore, StraightJoint
-from geometry.solids.wheel import WheelShape
+from geometry.solids.wheel import Levels, WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.cross_holes import cut_across, hole_angles, hole_sizes, opened, seen_in_bore, seen_within
 from parts.drawing.extent import Sampled, crossings, farthest, reach, sampled, summits
@@ -147,23 +147,6 @@ class Wheel(Record):
             return _UP - sum(self.kept[0]) / 2
         bore = self.holes.bore
         return _UP - bore.angle if self.stands and bore is not None and not isinstance(bore, RoundBore) else 0.0
-
-
-class _Levels(Record):
-    """Both ends of rim, web and hub along the axis, mm."""
-
-    rim: tuple[float, float]
-    web: tuple[float, float]
-    hub: tuple[float, float]
-
-
-def levels(shape: WheelShape) -> _Levels:
-    """Where rim, web and hub begin and end."""
-    width, web, hub = shape.face_width, shape.web, shape.hub
-    middle = width / 2 + (web.shift if web else 0.0)
-    half = (web.thickness if web else width) / 2
-    disk = middle - half, middle + half
-    return _Levels((0.0, width), disk, (-hub.below, width + hub.above) if hub else disk)
 
 
 def level(ends: tuple[float, float], height: float) -> Line:
@@ -296,7 +279,7 @@ def spline_cut(bore: Bore | None, low: float, high: float, chamfers: tuple[float
     return SplineCut((tooth, below(tooth)), (*root, *(line.mirrored() for line in root)), axes)
 
 
-def _bore_chamfers(shape: WheelShape, at: _Levels) -> tuple[float, float]:
+def _bore_chamfers(shape: WheelShape, at: Levels) -> tuple[float, float]:
     """Legs of the chamfers at the lower and the upper end of a bore: none where a recessed web ends it."""
     below, above = (
         cut if at.hub[side] != at.web[side] or at.web[side] == at.rim[side] else 0.0
@@ -307,7 +290,7 @@ def _bore_chamfers(shape: WheelShape, at: _Levels) -> tuple[float, float]:
 
 def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[complex]:
     """Corners of half a section, x + iy = height + i radius, from the bore upwards on the upper face and back."""
-    shape, at = wheel.shape, levels(wheel.shape)
+    shape, at = wheel.shape, wheel.shape.levels
     sides, chamfers = [], _bore_chamfers(shape, at)
     for side, cut in ((1, shape.chamfer_above), (0, shape.chamfer_below)):
         way = 1 if side else -1
@@ -365,7 +348,7 @@ def _topped(loop: Loop, height: float, top: Loop) -> Loop:
 
 def section_view(wheel: Wheel, subject: Subject) -> View:
     """The axial section; holes and spokes are turned into its plane."""
-    shape, holes, at = wheel.shape, wheel.holes, levels(wheel.shape)
+    shape, holes, at = wheel.shape, wheel.holes, wheel.shape.levels
     strokes: list[Stroke] = []
     hatched: list[Loop] = []
     axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]
@@ -414,7 +397,7 @@ def _face_spots(wheel: Wheel) -> tuple[Spot, ...]:
     """Places on the upper end face of the rim above and below the axis, between its inner edge and teeth or outside."""
     shape, bores = wheel.shape, bore_radii(wheel.holes.bore)
     if shape.hub is not None and wheel.covered[1]:
-        end = levels(shape).hub[1]
+        end = shape.levels.hub[1]
         return spots(complex(end, shape.hub.diameter / 2), complex(end, max(bores)), 1 + 0j)
     inner = max(*bores, shape.hub.diameter / 2 if shape.hub else 0.0, shape.web.rim_diameter / 2 if shape.web else 0.0)
     outer = min(*wheel.tip, wheel.root or math.inf)
@@ -476,7 +459,7 @@ def _openings(holes: HubHoles, turn: float, way: int) -> list[tuple[float, float
 
 
 def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
-    shape, at, wishes = wheel.shape, levels(wheel.shape), subject.wishes
+    shape, at, wishes = wheel.shape, wheel.shape.levels, subject.wishes
     width, bore, found = shape.face_width, wheel.holes.bore, list[Size]()
 
     def diameter(name: str, size: float, z: float, side: Side, fit: str = "") -> None:
@@ -501,20 +484,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     if (spokes := wheel.holes.spokes) is not None:
         diameter("spokes.inner_diameter", spokes.inner_diameter, at.web[0], "left")
         diameter("spokes.outer_diameter", spokes.outer_diameter, at.web[0], "left")
-    if shape.hub is not None:
-        # where it has an edge
-        if at.hub[1] != at.web[1]:
-            diameter("hub.diameter", shape.hub.diameter, at.hub[1] - shape.chamfer_above, "right")
-        elif at.hub[0] != at.web[0]:
-            diameter("hub.diameter", shape.hub.diameter, at.hub[0] + shape.chamfer_below, "left")
-        if at.hub[1] > width or at.hub[0] < 0:
-            edge = -shape.hub.diameter / 2
-            found.append(Size("hub.length", complex(at.hub[0], edge), complex(at.hub[1], edge), "below"))
-        end = at.hub[shape.hub.above >= shape.hub.below]
-        found += hole_sizes(shape.hub, cut_across(shape.hub, bore, wheel.turn), end, subject)
-        # of a hub on one side alone its length and the face width tell the rest
-        if at.hub[0] < 0 and at.hub[1] > width:
-            found.append(Size("hub.below", complex(at.hub[0], -shape.hub.diameter / 2), -1j * down, "below"))
+    found += _hub_sizes(wheel, subject)
     if isinstance(bore, RoundBore):
         diameter("bore_diameter", bore.diameter, at.hub[1], "right", wishes.bore)
     foot = -1j * max([down, *_beyond(wheel, -1)])
@@ -524,6 +494,24 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     if shape.hub is not None:
         edges = [complex(at.hub[k], shape.hub.diameter / 2) if wheel.covered[k] else edges[k] for k in (0, 1)]
     return found + _chamfer_sizes(shape, half, edges, subject)
+
+
+def _hub_sizes(wheel: Wheel, subject: Subject) -> Iterator[Size]:
+    """Of a hub its diameter where it has an edge, its length, the holes across it."""
+    shape, at = wheel.shape, wheel.shape.levels
+    if (hub := shape.hub) is None:
+        return
+    edge, (below, above) = hub.diameter / 2, at.stepped
+    if below or above:
+        z = at.hub[1] - shape.chamfer_above if above else at.hub[0] + shape.chamfer_below
+        yield Size("hub.diameter", complex(z, -edge), complex(z, edge), "right" if above else "left", "Ø")
+    if at.hub[1] > at.rim[1] or at.hub[0] < 0:
+        yield Size("hub.length", complex(at.hub[0], -edge), complex(at.hub[1], -edge), "below")
+    end = at.hub[hub.above >= hub.below]
+    yield from hole_sizes(hub, cut_across(hub, wheel.holes.bore, wheel.turn), end, subject)
+    # of a hub on one side alone its length and the face width tell the rest
+    if at.hub[0] < 0 and at.hub[1] > at.rim[1]:
+        yield Size("hub.below", complex(at.hub[0], -edge), -1j * wheel.tip[1], "below")
 
 
 def _chamfer_sizes(shape: WheelShape, half: Sequence[Line], edges: Sequence[complex], subject: Subject) -> list[Size]:
@@ -541,7 +529,7 @@ def _chamfer_sizes(shape: WheelShape, half: Sequence[Line], edges: Sequence[comp
     return found
 
 
-def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> tuple[Note, ...]:
+def _section_notes(wheel: Wheel, subject: Subject, at: Levels, wall: float) -> tuple[Note, ...]:
     """Signs of roughness of the teeth, or of the outside, and of the bore, whose wall stands at a height."""
     found = []
     if wheel.reference is not None and not wheel.sunk:
@@ -598,7 +586,7 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
         strokes += exact_teeth(wheel.outline, count, turn, tip) if count else [(VISIBLE, circle_of(tip))]
     if wheel.pitch is not None:
         strokes += [(AXIS, arc) for arc in pitch_arcs(wheel.pitch, wheel.kept, turn)]
-    shape, at = wheel.shape, levels(wheel.shape)
+    shape, at = wheel.shape, wheel.shape.levels
     if (hub := shape.hub) is not None:
         seen = at.hub[1] > at.web[1] or wheel.covered[0]
         # holes across it end there
@@ -870,7 +858,7 @@ def wheel_views(wheel: Wheel, subject: Subject, walls: Sequence[Profile] = ()) -
         letter = subject.letter()
         section = replace(section, title=f"{letter}-{letter}", in_row=True)
         face = replace(face, cuts=(Cut(0.0, letter),))
-    return with_bore((section, face), wheel.holes.bore, levels(wheel.shape).hub[1], subject, wheel.turn, int(not even))
+    return with_bore((section, face), wheel.holes.bore, wheel.shape.levels.hub[1], subject, wheel.turn, int(not even))
 
 
 def _is_even(wheel: Wheel) -> bool:

@@ -10,7 +10,7 @@ from parts.base.part import Part
 from parts.base.texts import N_
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outlined
-from parts.drawing.wheel_views import Wheel, circle_of, levels, wheel_views
+from parts.drawing.wheel_views import Wheel, circle_of, wheel_views
 from parts.drawing.working import AXIS, VISIBLE, PartDrawing, Size, Subject, requirements
 from parts.gears.data_tables import mate_rows
 from parts.gears.face_gear import page as face_page
@@ -46,7 +46,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
         Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"),
     ]
     rough = subject.worked(complex(pitch, (inner + outer) / 2))
-    axis = Line(complex(min(levels(gear.shape).hub[0], 0.0)), complex(gear.mounting_distance))
+    axis = Line(complex(min(gear.shape.levels.hub[0], 0.0)), complex(gear.mounting_distance))
     view = replace(
         section, strokes=tuple(strokes), axes=(axis, *section.axes[1:]), sizes=tuple(sizes),
         notes=(rough, *section.notes),

@@ -10,6 +10,7 @@ import cmath
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import cast
 
 import mpmath
 import numpy as np
@@ -91,7 +92,7 @@ def ridden_cam(disk: Eccentric, kind: FollowerKind, mount: Mount, radius: float,
     else:
         mount = Oscillating(mount.centre_distance, mount.arm_length, start, mount.sense, mount.face_offset)
     piece = RiddenPiece(disk, kind, mount, radius, tuple(float(x) for x in nodes))
-    return DiskCam(FollowerMotion((piece,)), mount, kind, radius)  # type: ignore[arg-type]
+    return DiskCam(FollowerMotion((cast("Any", piece),)), mount, kind, radius)
 
 
 def followed(cam: DiskCam, outline: np.ndarray, angle: float) -> float:
