@@ -10,7 +10,7 @@ import cmath
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import cast
+from typing import Any, cast
 
 import mpmath
 import numpy as np
