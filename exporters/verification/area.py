@@ -1,4 +1,4 @@
-"""What a STEP file tells of its solid, volume, area and precision, against what is measured on it."""
+"""What a STEP file tells of its solid, volume, area and precision, against what is measured on it, bounds too."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import numpy as np
 from exporters.formats.read_solid import ROUND, Model
 from exporters.formats.read_step import ReadSolid
 from exporters.formats.read_surfaces import area_of
+from exporters.verification.planes import plane_failures
 from exporters.verification.verdict import Verdict, precision_failures, volume_failures
 from parts.base.texts import fault
 
@@ -24,6 +25,7 @@ def told_verdict(found: ReadSolid, exact: float, bound: float, precision: float)
         *volume_failures(volume, exact, bound, said.get("volume")),
         *precision_failures(found.precision, precision),
         *area_failures(model, said.get("surface area")),
+        *plane_failures(model),
     )
     cylinders = np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0))
     measured = {"volume": volume, "volume_error": volume / exact - 1, "volume_bound": bound / exact}
