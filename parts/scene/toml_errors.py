@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import tomllib
 import unicodedata
 from collections.abc import Callable
+from itertools import accumulate
 from typing import Any, NamedTuple, TypeAlias
 
 from parts.base.lookalikes import look_alike
@@ -163,6 +165,35 @@ def _of_other_language(at: _Line) -> _Slip:
     return None
 
 
+def _braces(at: _Line) -> _Slip:
+    """A table in braces over several lines, or with a comma behind its last value."""
+    if not at.why.startswith(("Invalid initial character for a key part", "Unclosed inline table")):
+        return None
+    rows = [row.partition("#")[0] for row in at.text.split("\n")]
+    before = "\n".join((*rows[: at.number - 1], rows[at.number - 1][: at.column]))
+    begin = _open_brace(before)
+    whole = "\n".join(rows)[begin:]
+    depths = accumulate((c == "{") - (c == "}") for c in whole)
+    end = next((place for place, depth in enumerate(depths, 1) if depth == 0), 0)
+    table = re.sub(r"[\s,]*\}", " }", re.sub(r"\{\s*", "{ ", re.sub(r"\s*,\s*", ", ", whole[:end])))
+    try:
+        tomllib.loads(f"x = {table}")
+    except ValueError:
+        return None
+    return "braces", {"line": before.count("\n", 0, begin) + 1, "table": table}
+
+
+def _open_brace(text: str) -> int:
+    """Where the outermost brace begins that nothing closes in a text."""
+    opened: list[int] = []
+    for place, letter in enumerate(text):
+        if letter == "{":
+            opened.append(place)
+        elif letter == "}" and opened:
+            opened.pop()
+    return opened[0] if opened else len(text)
+
+
 def _brackets(at: _Line) -> _Slip:
     """Too few or too many about a header, a unit or a number."""
     if (found := _HALF_HEADER.fullmatch(at.line)) and found[1] + found[3] and not found[2].isdigit():
@@ -266,6 +297,6 @@ def _left(at: _Line) -> _Slip:
 
 # what a line may have, that which leads to the plainest remedy first
 _SLIPS: tuple[Callable[[_Line], _Slip], ...] = (
-    _of_other_format, _hidden, _twice, _of_other_language, _brackets, _no_value, _backslash, _calculated, _texts,
-    _bare_values, _units, _almost, _not_latin, _left,
+    _of_other_format, _hidden, _twice, _of_other_language, _braces, _brackets, _no_value, _backslash, _calculated,
+    _texts, _bare_values, _units, _almost, _not_latin, _left,
 )  # fmt: skip

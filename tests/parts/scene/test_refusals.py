@@ -635,6 +635,16 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("bore = { diameter: 5 }", "line 2: between a key and its value stands =, not a colon"),
         ('phases = [{"move": "rise"}]', "line 2: between a key and its value stands =, not a colon"),
         ("phases = [\n  { move: 1 }\n]", "line 3: between a key and its value stands =, not a colon"),
+        (
+            "bore = {\n  diameter = 5,  # mm\n}",
+            "line 2: a table in braces stands on one line, with no comma at its end: { diameter = 5 }",
+        ),
+        (
+            "phases = [\n  { a = [1],\n    b = { c = 2, } },\n]",
+            "line 3: a table in braces stands on one line, with no comma at its end: { a = [1], b = { c = 2 } }",
+        ),
+        ("bore = { diameter = 5, }", "with no comma at its end: { diameter = 5 }"),
+        ("bore = { diameter = 5", "is not TOML: Unclosed inline table"),
         ("<scene>", "line 2: scenes are TOML, not XML"),
         ("gear:", "line 2: scenes are TOML, not YAML"),
         # what is wrong in another way is told as before
