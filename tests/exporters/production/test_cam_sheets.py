@@ -343,6 +343,17 @@ def test_unusual_but_legal_cams_have_their_sheet(tmp_path: Path, name: str) -> N
         assert job.verify(tmp_path / job.path, 0.0).failures == ()
 
 
+def test_every_spline_of_a_table_of_many_rows_is_held_against_its_part_of_the_outline(tmp_path: Path) -> None:
+    """36 rows are two exact curves, drawn as a spline between each two rows: pairs were taken in the order of both."""
+    rows = [[a, 6 - 6 * math.cos(math.radians(a))] for a in range(0, 360, 10)]
+    roller = {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 25.0}
+    part = roller | {"motion_table": rows}
+    for job in plan_build(cam_scene(part), "t", [], []).sheets:
+        job.write({}, tmp_path / job.path)
+        assert job.verify(tmp_path / job.path, 0.0).failures == ()
+        assert all(len(job.expected.curves[layer]) > 30 for layer in ("CAM", "PITCH_CURVE"))
+
+
 def test_a_table_of_points_has_a_sheet_without_the_graphical_method() -> None:
     part = {"kind": "cam", "follower": "pointed", "base_circle_radius": 60.0,
             "motion_table": [[0, 0], [120, 5], [240, 3]]}  # fmt: skip
