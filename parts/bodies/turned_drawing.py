@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -161,6 +162,45 @@ def _circled(half: HalfSection, holes: HubHoles) -> list[Hole]:
     return [hole for hole in half.holes if all(abs(hole.centre - centre) > _SAME * 10 for centre in alone)]
 
 
+class _Added(NamedTuple):
+    """What holes or splines add to the view across the axis; nothing is hatched where they are ``drilled``."""
+
+    strokes: list[Stroke]
+    drilled: list[Loop]
+    axes: list[Line]
+    sizes: list[Size]
+
+
+def _hole_circles(half: HalfSection, loop: Loop, holes: HubHoles) -> Iterator[_Added]:
+    """The axial holes on each circle, where the plane of the section meets some."""
+    low, high = half.heights()
+    circled = _circled(half, holes)
+    for radius in sorted({round(abs(hole.centre), 9) for hole in circled}):
+        found = [hole for hole in circled if abs(abs(hole.centre) - radius) < _SAME * 10]
+        centres = [hole.centre for hole in found]
+        added = _Added([], [], [], [circle_size("holes", centres, low)])
+        for way in section_sides(centres):
+            for near, far in _walls(loop, found[0]):
+                drill = closed([near.start, near.end, far.end, far.start])
+                added.drilled.append(drill if way > 0 else below(drill))
+                added.strokes.extend((VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far))
+            added.axes.append(level((low, high), way * radius))
+        yield added
+
+
+def _spline_bars(bored: Iterable[tuple[Splined, SplineBore]], *, cut: bool) -> Iterator[_Added]:
+    """Splined parts of a shaft: teeth are not cut along it (GOST 2.409)."""
+    for spline, bore in bored:
+        added = _Added([], [], [], [])
+        for way in (1, -1):
+            root, _, around = bar((spline.low, spline.high), *(way * radius for radius in spline.radii))
+            added.strokes.append((VISIBLE if cut else THIN, root))
+            added.drilled.append(around)
+            if pitch := bore.joint.reference_radius:
+                added.axes.append(level((spline.low, spline.high), way * pitch))
+        yield added
+
+
 def _pocket_sizes(half: HalfSection, low: float, corners: set[float]) -> Iterator[Size]:
     """Where along the axis keyways and flats begin, from the lower end on, and how long they are; those alike once.
 
@@ -212,24 +252,11 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
             strokes += _seen_flat(half, pocket, cut=cut) if pocket.is_flat else _seen_slot(half, pocket, cut=cut)
     sizes += _pocket_sizes(half, low, {round(start_point(curve).real, 9) for curve in outer})
     drilled: list[Loop] = []
-    for radius in sorted({round(abs(hole.centre), 9) for hole in _circled(half, holes)}):
-        found = [hole for hole in _circled(half, holes) if abs(abs(hole.centre) - radius) < _SAME * 10]
-        centres = [hole.centre for hole in found]
-        for way in section_sides(centres):
-            for near, far in _walls(loop, found[0]):
-                drill = closed([near.start, near.end, far.end, far.start])
-                drilled.append(drill if way > 0 else below(drill))
-                strokes += [(VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far)]
-            axes.append(level((low, high), way * radius))
-        sizes.append(circle_size("holes", centres, low))
-    for spline, bore in bored:
-        # teeth are not cut along their shaft (GOST 2.409)
-        for way in (1, -1):
-            root, _, around = bar((spline.low, spline.high), *(way * radius for radius in spline.radii))
-            strokes.append((VISIBLE if cut else THIN, root))
-            drilled.append(around)
-            if pitch := bore.joint.reference_radius:
-                axes.append(level((spline.low, spline.high), way * pitch))
+    for added in (*_hole_circles(half, loop, holes), *_spline_bars(bored, cut=cut)):
+        strokes += added.strokes
+        drilled += added.drilled
+        axes += added.axes
+        sizes += added.sizes
     hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
     planes = [*_planes(half), *((spline.low + spline.high) / 2 for spline in half.splines)]
     cuts = tuple(Cut(at, subject.letter(k)) for k, at in enumerate(planes))

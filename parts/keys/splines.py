@@ -274,24 +274,15 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             if value != usual and not gost:
                 raise ParameterError(f"bore.{key}", value, "of_another_spline", Nearest(usual), standard=self.standard)
         plain = _plain(self.size, self.standard)
-        sizes = [] if self.standard == "ISO 4156" else _sizes(plain)
+        if self.standard == "ISO 4156":
+            return self._iso_4156(plain)
+        sizes = _sizes(plain)
         numbers, zones = [number for number, _ in sizes], [zone for _, zone in sizes]
         outer = gost and (self.centring == "outer" or any(zones[:1]))
         if outer and self.root == "fillet":
             raise ParameterError("bore.root", self.root, "centred_by_flat_roots", Nearest("flat"))
-        told = {"standard": self.standard, "example": _EXAMPLES[self.standard]}
-        refusal = ParameterError("bore.size", self.size, "no_such_spline", None, **told)
         if gost and plain[:1] in ("i", "I"):
             raise ParameterError("bore.size", self.size, "spline_centred_inside")
-        if self.standard == "ISO 4156":
-            iso = _ISO.fullmatch(plain)
-            root: Literal["flat", "fillet"] = "flat" if iso and iso[4] in ("P", "p") else "fillet"
-            if iso is None or (float(iso[3]), root) not in standards.ISO_4156 or not float(iso[2]) > 0:
-                raise refusal
-            if not _LEAST_TEETH <= int(iso[1]) <= _MOST_TEETH:
-                raise refusal
-            made = standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
-            return self._classed(made, plain, iso.end(4))
         if not gost and len(numbers) == 4 and numbers[2] == 30:
             # the pressure angle, which DIN 5480 had before z until 2006
             del numbers[2]
@@ -301,18 +292,34 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             or not min(numbers) > 0
             or numbers[0] / numbers[1] > _MOST_TEETH
         ):
-            raise refusal
+            raise self._none_such()
         teeth = [z for z in standards.teeth_of(numbers[0], numbers[1]) if gost or z == numbers[2]]
         if not teeth or teeth[0] < _LEAST_TEETH:
-            raise refusal
-        if gost:
-            made = standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
-            if zones[0]:
-                _check_clearance(self.clearance)
-                made = replace(made, fits=(_fit(self, "D", numbers[0], zones[0]),))
-        else:
-            made = standards.din_5480(numbers[0], numbers[1], teeth[0])
+            raise self._none_such()
+        if not gost:
+            return self._classed(standards.din_5480(numbers[0], numbers[1], teeth[0]), plain)
+        made = standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
+        if zones[0]:
+            _check_clearance(self.clearance)
+            made = replace(made, fits=(_fit(self, "D", numbers[0], zones[0]),))
         return self._classed(made, plain)
+
+    def _iso_4156(self, plain: str) -> InvoluteJoint:
+        from geometry.solids import spline_standards as standards
+
+        found = _ISO.fullmatch(plain)
+        root: Literal["flat", "fillet"] = "flat" if found and found[4] in ("P", "p") else "fillet"
+        if found is None or (float(found[3]), root) not in standards.ISO_4156 or not float(found[2]) > 0:
+            raise self._none_such()
+        if not _LEAST_TEETH <= int(found[1]) <= _MOST_TEETH:
+            raise self._none_such()
+        return self._classed(
+            standards.iso_4156(int(found[1]), float(found[2]), float(found[3]), root), plain, found.end(4)
+        )
+
+    def _none_such(self) -> ParameterError:
+        told = {"standard": self.standard, "example": _EXAMPLES[self.standard]}
+        return ParameterError("bore.size", self.size, "no_such_spline", None, **told)
 
     def _classed(self, joint: InvoluteJoint, plain: str, begin: int = 0) -> InvoluteJoint:
         """A joint with the classes that end its plain designation, that of the hub first; after ``begin`` letters."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
+from geometry.base.record import Draft, field
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import converted, tried, unit_of
 from parts.base.texts import ENGLISH, Words, languages, words
@@ -31,53 +34,75 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     SceneError
         There is no such assembly; or two make a part of one id.
     """
-    tables: dict[str, Any] = {key: value for key, value in raw.items() if key != "assemblies"}
-    origins: dict[str, str] = {}
-    named: dict[str, dict[str, Table]] = {"parts": {}, "instances": {}}
-    listed: dict[str, list[Table]] = {"mates": [], "drives": [], "steps": []}
+    told = _ToldOut()
     asked = raw.get("scene", {}).get("language", ENGLISH)
-    told, grow = words(asked if asked in languages() else ENGLISH), True
+    said, grow = words(asked if asked in languages() else ENGLISH), True
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
         recipe, prefix, made = _made(in_one(raw, table, source, place), source, place)
         grow &= recipe.grows
+        if shared := told.shared(made, prefix):
+            raise SceneError(source, f"{place}.name", table.get("name"), "assemblies_share", None, "", part=shared)
         # one assembly alone is called by no name
         beside = f" ({prefix[:-1]})" if prefix and len(raw["assemblies"]) > 1 else ""
-        for name, found in named.items():
+        told.take(made, prefix, place, partial(_named, prefix=prefix, beside=beside, told=said))
+    tables = {key: value for key, value in raw.items() if key != "assemblies"}
+    added = any(key not in told.ids() for name in told.named for key in tables.get(name, {}))
+    if grow and (added or "mates" in tables) and "steps" not in tables:
+        told.listed["steps"].clear()
+    return tables | told.with_own(tables), told.origins
+
+
+class _ToldOut(Draft):
+    """Tables that recipes have made, by id or in rows, and for places in them where they have come from."""
+
+    named: dict[str, dict[str, Table]] = field(default_factory=lambda: {"parts": {}, "instances": {}})
+    listed: dict[str, list[Table]] = field(default_factory=lambda: {"mates": [], "drives": [], "steps": []})
+    origins: dict[str, str] = field(default_factory=dict)
+
+    def ids(self) -> set[str]:
+        """Of all parts and instances."""
+        return {key for found in self.named.values() for key in found}
+
+    def shared(self, made: Expansion, prefix: str) -> str | None:
+        """The id of a part or an instance that another assembly has made already."""
+        ids = ((name, prefix + key) for name in self.named for key in getattr(made, name))
+        return next((key for name, key in ids if key in self.named[name]), None)
+
+    def take(self, made: Expansion, prefix: str, place: str, renamed: Callable[[Table], Table]) -> None:
+        """Those of one assembly more."""
+        for name, found in self.named.items():
             for key, own in getattr(made, name).items():
-                if prefix + key in found:
-                    part, own_name = prefix + key, table.get("name")
-                    raise SceneError(source, f"{place}.name", own_name, "assemblies_share", None, "", part=part)
-                found[prefix + key] = _named(own, prefix, beside, told)
-                origins[f"{name}.{prefix}{key}"] = f"{place}: {name}.{prefix}{key}"
-        before = {name: len(rows) for name, rows in listed.items()}
-        for name, rows in listed.items():
+                found[prefix + key] = renamed(own)
+                self.origins[f"{name}.{prefix}{key}"] = f"{place}: {name}.{prefix}{key}"
+        before = {name: len(rows) for name, rows in self.listed.items()}
+        for name, rows in self.listed.items():
             for own in getattr(made, name):
-                rows.append(_named(own, prefix, beside, told))
-                origins[f"{name}[{len(rows)}]"] = f"{place}: {name}[{len(rows)}]"
+                rows.append(renamed(own))
+                self.origins[f"{name}[{len(rows)}]"] = f"{place}: {name}[{len(rows)}]"
         for there, origin in made.origins.items():
             head, _, rest = there.partition(".")
             name, _, which = head.partition("[")
             here = f"{name}[{before[name] + int(which[:-1])}].{rest}" if which else f"{head}.{prefix}{rest}"
-            origins[here] = f"{place}.{origin}"
-    made_keys = {key for found in named.values() for key in found}
-    added = any(key not in made_keys for name in named for key in tables.get(name, {}))
-    if grow and (added or "mates" in tables) and "steps" not in tables:
-        listed["steps"].clear()
-    for name, rows in listed.items():
-        own_rows = tables.get(name, [])
-        origins |= {f"{name}[{len(rows) + k}]": f"{name}[{k}]" for k, _ in enumerate(own_rows, 1)}
-        tables[name] = [*rows, *own_rows]
-    for name, found in named.items():
-        for key, own in tables.get(name, {}).items():
-            if key in found and isinstance(own, dict):
-                origins |= {f"{name}.{key}.{changed}": f"{name}.{key}.{changed}" for changed in own}
-                # nor does what the recipe made hold a key in another form, as a bore is round or of a shape
-                kept_keys = {k: v for k, v in found[key].items() if not any(o in own for o in INSTEAD.get(k, ()))}
-                own = {**kept_keys, **own}
-            found[key] = own
-        tables[name] = found
-    return tables, origins
+            self.origins[here] = f"{place}.{origin}"
+
+    def with_own(self, tables: Mapping[str, Any]) -> dict[str, Any]:
+        """With what the scene says itself: its rows behind, its keys over those of the same id."""
+        told: dict[str, Any] = {}
+        for name, rows in self.listed.items():
+            own_rows = tables.get(name, [])
+            self.origins |= {f"{name}[{len(rows) + k}]": f"{name}[{k}]" for k, _ in enumerate(own_rows, 1)}
+            told[name] = [*rows, *own_rows]
+        for name, found in self.named.items():
+            for key, own in tables.get(name, {}).items():
+                if key in found and isinstance(own, dict):
+                    self.origins |= {f"{name}.{key}.{changed}": f"{name}.{key}.{changed}" for changed in own}
+                    # nor does what the recipe made hold a key in another form, as a bore is round or of a shape
+                    kept_keys = {k: v for k, v in found[key].items() if not any(o in own for o in INSTEAD.get(k, ()))}
+                    own = {**kept_keys, **own}
+                found[key] = own
+            told[name] = found
+        return told
 
 
 def _made(table: dict[str, Any], source: str, place: str) -> tuple[Recipe[Any], str, Expansion]:

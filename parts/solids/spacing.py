@@ -9,8 +9,9 @@ from geometry.solids.charts import Patch, span_shares
 
 # samples of the bend, each span and at least in all, and by how much a step may differ from one that far away
 _BENDS, _LEAST, _GROWTH = 4, 48, 0.5
-# what is not bent at all is cut as if it were a little, part of the tolerance; by how much a tie may differ
-_FLAT, _TIE = 1e-6, 1 + 1e-9
+# what is not bent at all is cut as if it were a little, part of the tolerance; by how much a tie may differ; and less
+# than this part of the other bend is none but rounding
+_FLAT, _TIE, _NONE = 1e-6, 1 + 1e-9, 1e-6
 
 
 def bend_places(knots: Real) -> Real:
@@ -40,8 +41,9 @@ class Bends:
         own = [np.sum(normal * patch.at(self.u, self.v, order), axis=-1) for order in ((2, 0), (1, 1), (0, 2))]
         along, twist, across = (np.abs(x).max(axis=0) for x in own)
         # a twist asks for both: shared as the bends are
-        share = np.sqrt((along.mean() + twist.mean()) / max(across.mean() + twist.mean(), 1e-300))
-        self.along, self.across = along + share * twist, across + twist / max(share, 1e-300)
+        one, other = along.mean() + twist.mean(), across.mean() + twist.mean()
+        share = np.sqrt(max(one, _NONE * other, 1e-300) / max(other, _NONE * one, 1e-300))
+        self.along, self.across = along + share * twist, across + twist / share
         up, down = (np.abs(own[0] + share * (2 * way * own[1] + share * own[2])).mean() for way in (1, -1))
         # the same on any machine where both are alike
         self.rising = bool(up <= _TIE * down)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from msgspec.structs import replace as changed
@@ -128,20 +128,23 @@ class LeverDrawing(Record, eq=False):
                 canvas.add("OUTLINE", side)
             if name in sliding:
                 _rail(canvas, paths[name], way / abs(way))
+        self._named(canvas, places, fixed)
+        heads = told.say(N_("Scheme")), _scaled("l", self.scale / 1000, "m", told)
+        return replace(titled(canvas, ", ".join(heads)), key="drawn_crank", value=self.drawn_crank)
+
+    def _named(self, canvas: Canvas, places: Sequence[Mapping[str, complex]], fixed: Mapping[str, complex]) -> None:
+        """Names of the joints in the first position, numbers of the crank's, and the output's where they lie apart."""
         labels = Labeller(canvas, reach(canvas).grown(_ABOUT))
         for name, at in places[0].items():
             labels.name(_lowered(name), at, prefer=-1 - 1j if name in fixed else 1 + 1j)
+        for number, place in enumerate(places if len(places) > 1 else ()):
+            labels.name(str(number), place["A"], SMALL_TEXT, prefer=place["A"] - fixed["O1"])
         named = [places[0][self.output]]
-        for number in range(count if count > 1 else 0):
-            at = places[number]["A"]
-            labels.name(str(number), at, SMALL_TEXT, prefer=at - fixed["O1"])
-        for number in range(count):
-            at = places[number][self.output]
+        for number, place in enumerate(places):
+            at = place[self.output]
             if all(abs(at - other) > 2 * SMALL_TEXT for other in named):
                 labels.name(f"{self.output}_{{{number}}}", at, SMALL_TEXT, prefer=1j)
                 named.append(at)
-        heads = told.say(N_("Scheme")), _scaled("l", self.scale / 1000, "m", told)
-        return replace(titled(canvas, ", ".join(heads)), key="drawn_crank", value=self.drawn_crank)
 
     def _plans(self, told: Words) -> Iterable[Piece]:
         """Plans of velocities and accelerations, of one position or two."""

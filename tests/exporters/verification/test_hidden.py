@@ -236,7 +236,7 @@ SPOILT: dict[str, dict[str, Spoil]] = {
         "colour": package(lambda t: t.replace("#C08040", "#4080C0")),
         "see-through": package(lambda t: t.replace("#C08040FF", "#C0804010")),
         "colour of a triangle": package(lambda t: t.replace("<triangle ", '<triangle pid="1" p1="0" ', 1)),
-        "painted": package(lambda t: t.replace("</mesh>", "<t:trianglesets/></mesh>")),
+        "painted": package(lambda t: t.replace("</mesh>", '<t:trianglesets xmlns:t="t"/></mesh>')),
         "path": package(lambda t: t.replace("<item ", '<item p:path="/3D/other.model" ')),
         "another model": second_model,
         "twice": twice,
