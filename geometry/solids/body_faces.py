@@ -6,8 +6,9 @@ every tooth is one bundle of faces.
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Iterator, Sequence
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Cap, Wall
-from geometry.solids.chamfer import cut_chamfers, even_shares, opening
+from geometry.solids.chamfer import cut_chamfers, even_shares, openings
 from geometry.solids.faces import Loop, Solid
 from geometry.solids.rings import Ring, RingBuilder, spatial
 from geometry.solids.screw import cut_twists, heights, turn_error, turn_spans, turn_spline, with_turn_error
@@ -88,12 +89,15 @@ def _bends(whole: Profile, end: Profile) -> bool:
 def cut_for_faces(body: Body) -> Body:
     """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
 
-    def pieces(wall: Wall, whole: int, end: int) -> tuple[float, ...]:
-        # beside a cusp an edge runs as from it
-        ways = (partial(even_shares, opens=opens) for opens in (opening(body, wall, whole, end), 0.0))
-        return pieces_needed(partial(body.section_at, wall, whole, end), *ways)
+    def pieces(wall: Wall, whole: int, end: int) -> Iterator[float]:
+        opens = openings(body, wall, whole, end)
+        growing = partial(even_shares, opens=0.0)
+        for low, high in pairwise(sorted({0.0, *opens, 1.0})):
+            # beside a cusp an edge runs as from it
+            ways = (growing, even_shares) if low in opens else (even_shares, growing)
+            yield from pieces_needed(partial(body.section_at, wall, whole, end), (low, high), *ways)
 
-    return cut_twists(cut_chamfers(body, pieces))
+    return cut_twists(cut_chamfers(body, lambda *chamfer: tuple(pieces(*chamfer))))
 
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:

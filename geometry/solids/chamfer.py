@@ -63,23 +63,34 @@ def cut_chamfers(body: Body, pieces: Pieces) -> Body:
     return body if len(made.loops) == len(body.loops) else replace(made.body(), caps=body.caps)
 
 
-def opening(body: Body, wall: Wall, whole: int, end: int) -> float | None:
-    """The share of its depth at which a chamfer begins to meet itself in an edge: over a vertex of the boundary.
+def openings(body: Body, wall: Wall, whole: int, end: int) -> tuple[float, ...]:
+    """The shares of its depth at which a chamfer begins to meet itself in edges more, over vertices of the boundary.
 
     None where it does not: the end has as many corners as the whole boundary. From a corner at the cusp of a curve on,
     as at an involute's on its base circle, its edge runs with the root of the depth as well.
     """
 
-    def opened(share: float) -> bool:
-        return len(_corners(body.section_at(wall, whole, end, share))) > corners
+    def corners(share: float) -> int:
+        return len(_corners(body.section_at(wall, whole, end, share)))
+
+    def is_known(share: float) -> bool:
+        return corners(share) <= known
 
     boundary = body.loop_profile(whole)
-    corners = len(_corners(boundary))
-    if not opened(1.0):
-        return 0.0 if _has_cusp(boundary, _inset(boundary, body.loop_profile(end))) else None
-    if opened(_OPENING_SHARE):
-        return 0.0
-    return last_that_holds(lambda share: not opened(share), 1.0, _OPENING_SHARE, _OPENING_STEPS)
+    known, last = len(_corners(boundary)), corners(1.0)
+    if last <= known:
+        return (0.0,) if _has_cusp(boundary, _inset(boundary, body.loop_profile(end))) else ()
+    place, found = _OPENING_SHARE, list[float]()
+    if (begun := corners(place)) > known:
+        known = begun
+        found.append(0.0)
+    while known < last and place < 1:
+        near = (1 - place) / 2**_OPENING_STEPS
+        place = last_that_holds(is_known, 1.0, place, _OPENING_STEPS)
+        found.append(place)
+        place = min(place + near, 1.0)
+        known = max(known + 1, corners(place))
+    return tuple(found)
 
 
 def _inset(whole: Profile, end: Profile) -> float:
@@ -139,7 +150,7 @@ def _worst(body: Body) -> dict[float, tuple[float, float | None]]:
         groups.setdefault(_depth(body, chamfer[0]), []).append(chamfer)
     found = {}
     for depth, chamfers in groups.items():
-        opens = [share for chamfer in chamfers if (share := opening(body, *chamfer)) is not None]
+        opens = [share for chamfer in chamfers for share in openings(body, *chamfer)]
         found[depth] = chamfer_bow(body, chamfers), min(opens, default=None)
     return found
 

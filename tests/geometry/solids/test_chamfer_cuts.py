@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 
 from geometry.curves.line_arc import Arc
 from geometry.plane.profile import Label, Profile, Segment, circle
 from geometry.solids.body import Body, BodyBuilder
-from geometry.solids.chamfer import chamfer_bow, cut_chamfers, even_shares, level_pieces, opening
+from geometry.solids.body_faces import cut_for_faces
+from geometry.solids.chamfer import chamfer_bow, cut_chamfers, even_shares, level_pieces, openings
 from geometry.solids.mass import body_moments
 from geometry.solids.plate import rounded
+from parts.scene.load import make_parts, scene_from_dict
 
 
 def square(half: float, radius: float) -> Profile:
@@ -46,8 +49,7 @@ def test_shares_of_pieces() -> None:
 def test_an_edge_opens_where_a_rounding_is_used_up(radius: float) -> None:
     body = chamfered(lambda depth: square(10.0 - depth, radius - depth), 0.0, 4.0)
     ((wall, whole, end),) = body.chamfers()
-    found = opening(body, wall, whole, end)
-    assert found is not None
+    (found,) = openings(body, wall, whole, end)
     assert radius / 4 - 1e-4 <= found <= radius / 4
     # upside down alike: shares count from the whole boundary
     made = BodyBuilder()
@@ -55,17 +57,31 @@ def test_an_edge_opens_where_a_rounding_is_used_up(radius: float) -> None:
     made.wall(bottom, top, lambda z: square(6.0 + z, radius - 4.0 + z))
     turned = made.body()
     ((wall, whole, end),) = turned.chamfers()
-    assert opening(turned, wall, whole, end) == pytest.approx(found, abs=1e-9)
+    assert openings(turned, wall, whole, end) == pytest.approx((found,), abs=1e-9)
+
+
+def test_edges_open_one_after_the_other() -> None:
+    """Where roundings of 0.5, 2 and 3 mm are used up; what opens within the same share of the depth is told once."""
+    corners = [complex(x, y) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+
+    def section(depth: float) -> Profile:
+        radii = [max(radius - depth, 0.0) for radius in (0.5, 2.0, 3.0, 2.0)]
+        edges = rounded([(c * (10.0 - depth), radius) for c, radius in zip(corners, radii, strict=True)])
+        return Profile(tuple(Segment(e, Label.BODY) for e in edges))
+
+    body = chamfered(section, 0.0, 4.0)
+    found = openings(body, *next(iter(body.chamfers())))
+    assert found == pytest.approx([radius / 4 for radius in (0.5, 2.0, 3.0)], abs=1e-4)
 
 
 def test_no_edge_opens_where_none_is_new() -> None:
     for radius in (0.0, 4.5):
         body = chamfered(lambda depth, radius=radius: square(10.0 - depth, radius - depth if radius else 0.0), 0.0, 4.0)
         ((wall, whole, end),) = body.chamfers()
-        assert opening(body, wall, whole, end) is None
+        assert openings(body, wall, whole, end) == ()
     # from the first on
     body = chamfered(lambda depth: square(10.0 - depth, 1e-5 - depth), 0.0, 4.0)
-    assert opening(body, *next(iter(body.chamfers()))) == 0.0
+    assert openings(body, *next(iter(body.chamfers()))) == (0.0,)
 
 
 @pytest.mark.parametrize("bow", [0.3, -0.3, 0.0])
@@ -103,3 +119,13 @@ def test_pieces_hold_what_the_chamfer_holds() -> None:
     assert body_moments(body).volume == pytest.approx(400 - (4 - math.pi) * 9 + chamfer, rel=1e-12)
     assert cut_chamfers(body, lambda *_: (1.0,)) is body
     assert isinstance(body.profiles[0].period[1].curve, Arc)
+
+
+def test_teeth_that_open_one_after_the_other_are_cut_where_each_does() -> None:
+    """Those of an oval do at 0.43 and 0.61 of the depth: cut evenly for all they took 32 pieces of 180 faces."""
+    keys = {"kind": "noncircular_gear", "centrode": "oval", "number_of_teeth": 30, "module": 2.0, "axis_ratio": 1.5}
+    scene = {"parts": {"p": keys | {"face_width": 10.0, "bore_diameter": 8.0, "face_chamfer": {"above": 0.5}}}}
+    body = make_parts(scene_from_dict(scene, "t", "t"), "t")[0]["p"].body(0.0)
+    assert isinstance(body, Body)
+    levels = np.unique(cut_for_faces(body).levels())
+    assert 4 < len(levels) < 12

@@ -9,7 +9,7 @@ import pytest
 
 from geometry.plane.profile import Label
 from geometry.solids.body import Body
-from geometry.solids.chamfer import cut_chamfers, level_pieces, opening
+from geometry.solids.chamfer import cut_chamfers, level_pieces, openings
 from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import Keys
 
@@ -67,13 +67,13 @@ def test_no_edge_opens_in_teeth_without_cusps(more: Keys) -> None:
     body = body_of(**more)
     chamfers = list(body.chamfers())
     assert len(chamfers) == 2
-    assert [opening(body, *chamfer) for chamfer in chamfers] == [None, None]
+    assert [openings(body, *chamfer) for chamfer in chamfers] == [(), ()]
 
 
 def test_slices_are_no_lower_than_a_file_tells() -> None:
     """Undercut teeth of a helix, whose edges open in the chamfers: the lowest slice of a sector had 3e-6 mm."""
     body = body_of(number_of_teeth=9, helix_angle_deg=39.8, crowning=0.003, face_chamfer=0.8)
-    assert any(opening(body, *chamfer) is not None for chamfer in body.chamfers())
+    assert any(openings(body, *chamfer) for chamfer in body.chamfers())
     levels = cut_chamfers(body, level_pieces(body, 1e-4)).levels()
     assert len(levels) > 50
     assert min(np.diff(levels)) > 1e-4 / 17
