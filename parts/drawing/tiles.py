@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -115,7 +115,16 @@ def _layout(box: Box, paper: str) -> _Layout:
 
 
 def _box_of(edges: Sequence[Edge]) -> Box:
-    return Box.of(np.concatenate([edge.point(np.linspace(*edge.domain, 33)) for edge in edges]).tolist())
+    return Box.of(point for edge in edges for point in _outmost(edge))
+
+
+def _outmost(edge: Edge) -> Iterator[complex]:
+    """The ends of an edge, and where an arc runs along a side of its box."""
+    yield from edge.point(np.array(edge.domain)).tolist()
+    if isinstance(edge, Arc):
+        low, high = sorted((edge.start_angle, edge.start_angle + edge.sweep))
+        for quarter in range(math.ceil(low / (math.pi / 2)), math.floor(high / (math.pi / 2)) + 1):
+            yield edge.centre + edge.radius * 1j ** (quarter % 4)
 
 
 def _caption(name: str, language: str) -> str:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from exporters.command.cli import main
 from exporters.production import paper_models
 from exporters.production.plan import plan_build
 from exporters.verification.verdict import Verdict
@@ -190,6 +191,26 @@ def test_parts_that_one_sheet_holds_share_it_ten_millimetres_apart() -> None:
     assert [told.count(where) for where in ("sheet 2", "sheet 3", "sheet 4", "sheets 5 to 6")] == [4, 1, 1, 1]
     captions = [word.text for word in four.canvas.texts if "1:1" in word.text]
     assert len(captions) == 4
+
+
+def test_a_long_arc_beside_the_frame_keeps_within_it(tmp_path: Path) -> None:
+    """The blank of a sector is two arcs of 111 degrees: by 33 places along each, it reached 0.007 mm less far."""
+    scene = """
+[parts.sector]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 31
+sector = { teeth = 12 }
+[parts.pinion]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 14
+[[exports]]
+format = "pdf"
+purpose = "model"
+"""
+    (tmp_path / "sector.toml").write_text(scene, encoding="utf-8")
+    assert main(["build", str(tmp_path / "sector.toml"), "--out", str(tmp_path / "out"), "--quiet"]) == 0
 
 
 def test_the_mark_of_a_small_part_keeps_within_the_sheet() -> None:
