@@ -109,10 +109,7 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     if listed:
         draw_list(canvas, corner, listed, asked.language)
     shifts = next(found for field in fields(canvas) if (found := _places(made, field)) is not None)
-    outlines = []
-    for view, one, shift in zip(views, made, shifts, strict=True):
-        moved(one, canvas, shift, asked.tolerance)
-        outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.drawn.strokes]
+    outlines = [own for one, at in zip(made, shifts, strict=True) for own in moved(one, canvas, at, asked.tolerance)]
     shown = {number for share in _shared([view.drawn for view in views], rows, scale) for number in share}
     hidden = tuple(Finding("position_not_shown", row.position, 0.0) for row in rows if row.position not in shown)
     measures = PartMeasures(canvas, tuple(outlines))

@@ -465,6 +465,11 @@ def fitted_each(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance
     return made
 
 
+def exact_each(curves: Sequence[Curve], made: Sequence[Sequence[CadCurve]]) -> list[tuple[Curve, ...]]:
+    """The exact curve behind each one of ``fitted_each``: of a curve that was cut at its knots its parts."""
+    return [curve.parts() if len(own) > 1 else (curve,) for curve, own in zip(curves, made, strict=True)]
+
+
 def draw(canvas: Canvas, layer: str, curves: Sequence[CadCurve], paper: Paper) -> None:
     """Curves in model mm on a layer."""
     for curve in curves:

@@ -14,6 +14,7 @@ import numpy as np
 
 from geometry.approximation.outline import CadCurve
 from geometry.base.record import Record, replace
+from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import MINUS
 from parts.drawing.canvas import (
@@ -28,6 +29,7 @@ from parts.drawing.canvas import (
     Text,
     decimal,
     draw,
+    exact_each,
     fitted_each,
     rising_text,
     text_of,
@@ -794,11 +796,13 @@ def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[l
     return [Line(foot + complex(-_SHORT * _SLOPE, _SHORT), foot), Line(foot, top), shelf], text
 
 
-def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
-    """Put a view onto a sheet, its curves within ``tolerance`` mm on paper."""
-    curves = fitted_each(canvas, [curve for _, curve in view.view.strokes], view.scale, tolerance)
-    for (layer, _), made in zip(view.view.strokes, curves, strict=True):
-        draw(canvas, layer, made, Paper(view.scale, shift))
+def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> list[tuple[Paper, str, Curve]]:
+    """Put a view onto a sheet, its curves within ``tolerance`` mm on paper; the exact one of each, where it lies."""
+    paper, exact = Paper(view.scale, shift), [curve for _, curve in view.view.strokes]
+    curves, outlines = fitted_each(canvas, exact, view.scale, tolerance), list[tuple[Paper, str, Curve]]()
+    for (layer, _), made, parts in zip(view.view.strokes, curves, exact_each(exact, curves), strict=True):
+        draw(canvas, layer, made, paper)
+        outlines += [(paper, layer, part) for part in parts]
     strokes, texts = len(canvas.strokes), len(canvas.texts)
     canvas.take(view.canvas, shift)
     canvas.dimensions += [
@@ -813,3 +817,4 @@ def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
         )
         for one in view.canvas.dimensions
     ]
+    return outlines

@@ -226,10 +226,7 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
     views = views_at(scale)
     corner, shifts = found
     corner.draw(canvas)
-    outlines = []
-    for view, one, shift in zip(row, views, shifts, strict=True):
-        moved(one, canvas, shift, asked.tolerance)
-        outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.strokes]
+    outlines = [own for one, at in zip(views, shifts, strict=True) for own in moved(one, canvas, at, asked.tolerance)]
     return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
 
 

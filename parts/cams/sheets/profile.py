@@ -17,7 +17,7 @@ from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from parts.cams.sheets.picture import CamPicture, thinned
-from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, draw, fitted_each, text_width
+from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, draw, exact_each, fitted_each, text_width
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle
 from parts.drawing.labels import Labeller
@@ -140,9 +140,7 @@ def draw_profile(
     for layer, exact in curves.items():
         each = fitted_each(canvas, exact, paper.scale, asked.tolerance)
         draw(canvas, layer, [one for made in each for one in made], paper)
-        # what was cut at its knots, as over the rows of a table, is read back part by part
-        rows = zip(exact, each, strict=True)
-        curves[layer] = [part for curve, made in rows for part in (curve.parts() if len(made) > 1 else [curve])]
+        curves[layer] = [part for parts in exact_each(exact, each) for part in parts]
     _turning(canvas, paper, reach)
     return drawn, circles, curves
 

@@ -475,6 +475,15 @@ def test_a_groove_nearly_as_wide_as_its_barrel_is_drawn(tmp_path: Path) -> None:
         assert job.verify(tmp_path / job.path, job.declared({})[0]).failures == ()
 
 
+def test_a_cam_whose_table_no_one_spline_follows_is_held_row_by_row(tmp_path: Path) -> None:
+    """Of 45 rows the curve is cut at each: it was sought in the file as a whole, and was off by inf."""
+    rows = [[a, 6 - 6 * math.cos(math.radians(a))] for a in range(0, 360, 8)]
+    roller = {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 25.0}
+    for job in jobs(roller | {"motion_table": rows}, tolerance=1e-6):
+        job.write({}, tmp_path / job.path)
+        assert job.verify(tmp_path / job.path, job.declared({})[0]).failures == ()
+
+
 def test_of_many_parts_a_refusal_names_the_one_that_has_no_room() -> None:
     raw = {"parts": {"pin": PARTS["pin"], "large": {"kind": "pin", "diameter": 8.0, "length": 600.0}},
            "exports": [{"format": "svg", "purpose": "part", "paper": "A4", "scale": "1:1"}]}  # fmt: skip
