@@ -44,6 +44,8 @@ _NEWTON_STEPS = 6
 _ORDERS = np.arange(float(_NODES))
 # of fewer places than these cosines are found sooner than a recurrence
 _MANY = 200
+# places that are looked up together: the coefficients of more leave the processor's caches
+_BLOCK = 4096
 # pieces of a panel on which derivatives are bounded, and up to which order
 _PIECES, _MOST_ORDER = 4, 6
 
@@ -142,6 +144,10 @@ class PitchLine(Record, eq=False, dict=True):
 
     def _looked_up(self, s: Real, first: int, last: int) -> tuple[Real, Real]:
         """Columns ``first`` up to ``last`` (the last axis) at arc lengths, and the whole lobes before them."""
+        if s.size > _BLOCK:
+            parts = [self._looked_up(part, first, last) for part in np.array_split(s.ravel(), -(-s.size // _BLOCK))]
+            found, before = (np.concatenate(rows) for rows in zip(*parts, strict=True))
+            return found.reshape(*s.shape, -1), before.reshape(s.shape)
         table = self._table
         before = np.floor(s / table.edges[-1])
         rest = s - before * table.edges[-1]
