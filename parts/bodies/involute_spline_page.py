@@ -18,13 +18,14 @@ from geometry.solids.spline_fits import (
 )
 from geometry.solids.splines import InvoluteJoint, SplineMeasures
 from parts.base.texts import N_
-from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
+from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables, spline_of
 from parts.keys.base import check_not_in_vain, mm
 from parts.keys.splines import InvoluteSplineTable
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 
 TOPIC = "involute-spline"
+table_from = spline_of("involute_spline", InvoluteSplineTable)
 # the effective limit at most material, the other one, the actual ones and what pins tell at those, greatest first
 _TOOTH = ("greatest_effective_tooth", "least_effective_tooth", "greatest_tooth", "least_tooth",
           "greatest_over_pins", "least_over_pins")  # fmt: skip

@@ -5,13 +5,14 @@ from __future__ import annotations
 from geometry.solids.splines import SplineBore
 from geometry.solids.zones import side_symmetry
 from parts.base.texts import N_
-from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
+from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables, spline_of
 from parts.keys.base import check_not_in_vain
 from parts.keys.splines import StraightSplineTable
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 
 TOPIC = "spline"
+table_from = spline_of("spline", StraightSplineTable)
 
 
 class SplineKeys(StraightSplineTable, kw_only=True, tag=False, forbid_unknown_fields=True):

@@ -2,21 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Annotated, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Annotated, Any, NamedTuple
 
-from msgspec import Meta
+from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
 from geometry.solids.splines import Fit
 from geometry.solids.zones import zone_limits
 from parts.base.texts import N_
+from parts.bodies.turned import ShaftSpec
 from parts.keys.base import mm, size
+from parts.keys.splines import InvoluteSplineTable, SplineTable, StraightSplineTable
+from parts.pages.inputs import SceneKeys, chosen_part, given
 from parts.pages.page import Sheet
 
 Torque = Annotated[float, size("N*m", "torque that it carries", above=0, most=1e9, example=100.0)] | None
 Length = Annotated[float, mm("length on which hub and shaft meet", above=0, most=1e5, example=30.0)] | None
 LoadShare = Annotated[float, Meta(gt=0, le=1, description="part of the sides that carries; 0.7 to 0.8 in textbooks")]
+
+
+def spline_of(kind: str, shape: type[SplineTable]) -> Callable[[SceneKeys, str, dict[str, Any]], dict[str, Any]]:
+    """How a scene gives a page the keys of its splines of a shape: those of one joint, or in what ``part`` names."""
+    return partial(_of_scene, kind, shape)
+
+
+def _of_scene(
+    kind: str, shape: type[SplineTable], scene: SceneKeys, source: str, table: dict[str, Any]
+) -> dict[str, Any]:
+    found = {key: spline for key, spec in scene.parts.items() for spline in _splines(spec) if isinstance(spline, shape)}
+    # hub and shaft of one joint have the same
+    alone = {spline.joint(): key for key, spline in reversed(found.items())}
+    chosen = found[chosen_part(kind, [*found], [*alone.values()], source, table)]
+    return {key: value for key, value in given(chosen).items() if key != "shape"} | table
+
+
+def _splines(spec: Struct) -> Iterator[SplineTable]:
+    """In the bore of a part, or on a shaft, the last first: of several the first is the one that is left."""
+    if isinstance(spec, ShaftSpec):
+        yield from (step.spline for step in reversed(spec.steps) if step.spline is not None)
+    elif isinstance(bore := getattr(spec, "bore", None), StraightSplineTable | InvoluteSplineTable):
+        yield bore
 
 
 class Sides(NamedTuple):

@@ -23,7 +23,8 @@ def drawn_names(part: Part, language: str) -> tuple[str, str]:
 
 
 def caption_name(part: Part) -> str:
-    """What captions call it: its title, else what its kind is and its id, where that is another word."""
+    """What captions call it: its title, else what its kind is and its id, where that says more."""
     name, _ = drawn_names(part, part.language)
-    known = {part.kind, KINDS.called.get(part.kind, part.id).lower().replace(" ", "_")}
-    return name if part.title is not None or part.id in known | {name} else f"{name} {part.id}"
+    known = part.kind, KINDS.called.get(part.kind, part.id).lower().replace(" ", "_"), name
+    says_no_more = any(f"_{one}".endswith(f"_{part.id}") for one in known)
+    return name if part.title is not None or says_no_more else f"{name} {part.id}"

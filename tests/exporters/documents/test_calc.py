@@ -794,6 +794,32 @@ def test_a_scene_tells_its_helix_and_the_face_that_both_gears_have() -> None:
     assert "helix_angle_deg" not in tables_of("shift-choice helical_pair helix_angle_deg=0")["values"]
 
 
+@pytest.mark.parametrize(
+    ("words", "typed"),
+    [
+        ("spline spline_joint", "spline size=d-6x23x26"),
+        ("spline spline_joint part=gear torque=80 length=9", "spline size=d-6x23x26 clearance=0.15 torque=80 length=9"),
+        ("involute-spline spline_joint part=hub", "involute-spline size=20x1 clearance=0.12"),
+    ],
+)
+def test_a_scene_tells_its_splines_of_a_shaft_and_of_bores(words: str, typed: str) -> None:
+    assert values_of(words) == values_of(typed)
+
+
+def test_splines_of_several_joints_are_chosen_by_their_part(tmp_path: Path) -> None:
+    scene = tmp_path / "s.toml"
+    gears = "\n".join(
+        f'[parts.{name}]\nkind = "spur_gear"\nmodule = 3.0\nnumber_of_teeth = 30\n'
+        f'bore = {{ shape = "spline", size = "{size}" }}'
+        for name, size in (("a", "6x23x26"), ("b", "6x28x32"), ("c", "6x23x26"))
+    )
+    scene.write_text(gears, "utf-8")
+    with pytest.raises(SceneError) as refused:
+        calculate("spline", [str(scene)], "text", "en")
+    assert (refused.value.code, refused.value.numbers["known"]) == ("choose_a_part", ["a", "b"])
+    assert values_of(f"spline {scene} part=b")["values"]["spline_outer_diameter"] == 32.0
+
+
 def test_the_picture_is_written_in_the_language(tmp_path: Path) -> None:
     file = tmp_path / "contour.svg"
     words = ["first.number_of_teeth=17", "second.number_of_teeth=33", f'picture="{file.as_posix()}"']

@@ -23,10 +23,12 @@ from parts.drawing.canvas import Box, Canvas, text_of, text_width
 from parts.drawing.extent import crossings, farthest, reach, sampled
 from parts.drawing.ink import Ink
 from parts.drawing.labels import Labeller, nearest, spread
+from parts.drawing.names import caption_name
 from parts.drawing.parts_list import mass_text
 from parts.drawing.places import apart, circled, place_sizes, spans
 from parts.drawing.shown import shown_pieces
 from parts.drawing.table import Row, Table
+from parts.scene.load import make_parts, scene_from_dict
 
 WAYS = [cmath.rect(1.0, math.radians(a)) for a in (0.0, 37.0, 90.0, 200.0, -75.0)]
 
@@ -513,3 +515,19 @@ def test_a_column_of_names_has_the_order_of_its_points(left: bool) -> None:
 def test_three_digits_of_a_mass_count_whatever_they_are(mass: float, text: str) -> None:
     """GOST 2.104 leaves the digits to the drawing: as many of each."""
     assert mass_text(mass) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "caption"),
+    [
+        ("wheel", "Geneva wheel"),
+        ("geneva_wheel", "Geneva wheel"),
+        ("eel", "Geneva wheel eel"),
+        ("geneva", "Geneva wheel geneva"),
+        ("wheel_2", "Geneva wheel wheel_2"),
+    ],
+)
+def test_a_caption_says_a_word_once(name: str, caption: str) -> None:
+    keys = {"kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 60.0}
+    parts, _ = make_parts(scene_from_dict({"parts": {name: keys}}, "t", "t"), "t")
+    assert caption_name(parts[name]) == caption
