@@ -9,7 +9,7 @@ least that leaves every corner and every section in its place; what is left is m
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -102,19 +102,18 @@ def _curves(sections: Sections, shares: Real) -> list[list[Curve]]:
 
 def pieces_needed(
     sections: Sections, span: tuple[float, float], *ways: Callable[[int], tuple[float, ...]]
-) -> Iterator[float]:
+) -> list[float]:
     """The shares at which a chamfer is cut from one to the other end of a span, each piece near a polynomial.
 
-    As few pieces as do of those that the ``ways`` make of 1, 2, 4 or 8; else what the first makes of 8. More than one
-    is needed where the form changes within the depth, as where an offset flank begins to be cut at its foot.
+    The fewest that do of what the ``ways`` make of 1, 2, 4 and 8; else what the first makes of 8. More than one is
+    needed where the form changes within the span, as where an offset flank begins to be cut at its foot.
     """
     low, high = span
     own = _piece(sections, low, high)
     counts = [2**k for k in range(_MOST_DOUBLED + 1)]
     tries = sorted((way(count) for way in ways for count in counts), key=len)
     near = (cuts for cuts in tries if all(_degree(_piece(own, *ends)) for ends in pairwise((0.0, *cuts))))
-    for share in next(near, ways[0](counts[-1])):
-        yield (1 - share) * low + share * high
+    return [(1 - share) * low + share * high for share in next(near, ways[0](counts[-1]))]
 
 
 def _piece(sections: Sections, low: float, high: float) -> Sections:

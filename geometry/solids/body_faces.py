@@ -6,7 +6,7 @@ every tooth is one bundle of faces.
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Sequence
 from functools import partial
 from itertools import pairwise
 
@@ -89,15 +89,16 @@ def _bends(whole: Profile, end: Profile) -> bool:
 def cut_for_faces(body: Body) -> Body:
     """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
 
-    def pieces(wall: Wall, whole: int, end: int) -> Iterator[float]:
-        opens = openings(body, wall, whole, end)
-        growing = partial(even_shares, opens=0.0)
+    def pieces(wall: Wall, whole: int, end: int) -> list[float]:
+        opens, growing = openings(body, wall, whole, end), partial(even_shares, opens=0.0)
+        cuts: list[float] = []
         for low, high in pairwise(sorted({0.0, *opens, 1.0})):
             # beside a cusp an edge runs as from it
             ways = (growing, even_shares) if low in opens else (even_shares, growing)
-            yield from pieces_needed(partial(body.section_at, wall, whole, end), (low, high), *ways)
+            cuts += pieces_needed(partial(body.section_at, wall, whole, end), (low, high), *ways)
+        return cuts
 
-    return cut_twists(cut_chamfers(body, lambda *chamfer: tuple(pieces(*chamfer))))
+    return cut_twists(cut_chamfers(body, pieces))
 
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:
