@@ -818,6 +818,11 @@ def test_splines_of_several_joints_are_chosen_by_their_part(tmp_path: Path) -> N
         calculate("spline", [str(scene)], "text", "en")
     assert (refused.value.code, refused.value.numbers["known"]) == ("choose_a_part", ["a", "b"])
     assert values_of(f"spline {scene} part=b")["values"]["spline_outer_diameter"] == 32.0
+    # of a shaft with two the first
+    steps = (f'{{ diameter = {d}, length = 30, spline = {{ shape = "spline", size = "{size}" }} }}'
+             for d, size in ((26, "6x23x26"), (32, "6x28x32")))  # fmt: skip
+    scene.write_text(f'[parts.s]\nkind = "shaft"\nsteps = [{", ".join(steps)}]', "utf-8")
+    assert values_of(f"spline {scene}")["values"]["spline_outer_diameter"] == 26.0
 
 
 def test_the_picture_is_written_in_the_language(tmp_path: Path) -> None:

@@ -27,6 +27,11 @@ def hole(middle: complex, radius: float = 2.0) -> Profile:
     return circle(radius, Label.HOLE, hole=True, centre=middle)
 
 
+def slit(end: float) -> Profile:
+    """The square, cut from its left side along the x axis."""
+    return polygon(*SQUARE[:2], -10 + 0.01j, complex(end), -10 - 0.01j, *SQUARE[2:])
+
+
 def plate(outer: Profile, *holes: Profile) -> Body:
     """A plate of 3 mm with these walls, whatever they do to each other."""
     made = BodyBuilder()
@@ -51,6 +56,8 @@ PLATES: dict[str, tuple[Body, bool]] = {
     "a hole through a corner": (plate(polygon(*SQUARE), hole(10 + 10j)), False),
     "a hole beside": (plate(polygon(*SQUARE), hole(30 + 1j)), False),
     "a hole through a curve": (plate(circle(10.0, Label.BODY), hole(8.5)), False),
+    # their chords between the places that are known cross
+    "a hole all but at a curve": (plate(circle(10.0, Label.BODY), hole(7.999)), True),
     "a hole near a curve": (plate(circle(10.0, Label.BODY), hole(5 + 6j)), True),
     "a hole in the gap of an L": (plate(polygon(0j, 20, 20 + 5j, 5 + 5j, 5 + 20j, 20j), hole(12 + 12j)), False),
     "two holes": (plate(polygon(*SQUARE), hole(-3), hole(1.1)), True),
@@ -59,6 +66,11 @@ PLATES: dict[str, tuple[Body, bool]] = {
     "the corner of a hole in another": (
         plate(polygon(*SQUARE), hole(-3), polygon(*(z / 5 + 0.5 for z in SQUARE[::-1]))), False,
     ),
+    "the corner of a larger hole in another": (
+        plate(polygon(*SQUARE), hole(-6), polygon(-4.5 + 0j, 8 + 8j, 8 - 8j)), False,
+    ),
+    "a slit into a hole": (plate(slit(1.0), hole(0)), False),
+    "a slit before a hole": (plate(slit(-2.1), hole(0)), True),
     "a slot through both sides": (
         plate(polygon(*SQUARE), polygon(*(z.real / 5 + z.imag * 1.2j for z in SQUARE[::-1]))), False,
     ),

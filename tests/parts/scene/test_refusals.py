@@ -643,6 +643,7 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
             "phases = [\n  { a = [1],\n    b = { c = 2, } },\n]",
             "line 3: a table in braces stands on one line, with no comma at its end: { a = [1], b = { c = 2 } }",
         ),
+        ("bore = { a = {\n  b = 1 } }", "with no comma at its end: { a = { b = 1 } }"),
         ("bore = { diameter = 5, }", "with no comma at its end: { diameter = 5 }"),
         ("bore = { diameter = 5", "is not TOML: Unclosed inline table"),
         ("<scene>", "line 2: scenes are TOML, not XML"),
