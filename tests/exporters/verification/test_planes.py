@@ -58,7 +58,9 @@ PLATES: dict[str, tuple[Body, bool]] = {
     "a hole beside": (plate(polygon(*SQUARE), hole(30 + 1j)), False),
     "a hole through a curve": (plate(circle(10.0, Label.BODY), hole(8.5)), False),
     # their chords between the places that are known cross
-    "a hole all but at a curve": (plate(circle(10.0, Label.BODY), hole(cmath.rect(7.999, 0.3))), True),
+    "a hole all but at a curve": (
+        plate(circle(10.0, Label.BODY), polygon(5 + 0j, 5 + 2j, cmath.rect(9.999, cmath.pi / 12))), True,
+    ),
     "a hole near a curve": (plate(circle(10.0, Label.BODY), hole(5 + 6j)), True),
     "a hole in the gap of an L": (plate(polygon(0j, 20, 20 + 5j, 5 + 5j, 5 + 20j, 20j), hole(12 + 12j)), False),
     "two holes": (plate(polygon(*SQUARE), hole(-3), hole(1.1)), True),
